@@ -158,7 +158,7 @@ void read_swerves(const Json& value, const std::string& path, PilotFile& pilot) 
     return;
   }
   for (const auto& [name, each] : value.items())
-    pilot.others_most_of[name] = most.read(each, path + "." + name);
+    pilot.others_most_of.emplace_back(name, most.read(each, path + "." + name));
 }
 
 void read_goal(const Json& value, const std::string& path, PilotFile& pilot) {

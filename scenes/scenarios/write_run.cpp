@@ -65,7 +65,10 @@ Json run_json(const simulation::Scenario& scenario, const simulation::Run& run, 
   Json plans = Json::array();
   const auto swerves = [&](const simulation::PlansProved& own) {
     const auto& pilot = scenario.bodies[own.agent].pilot;
-    return pilot && !pilot->others_most_of.empty() ? Json(pilot->others_most_of) : Json(own.others_most);
+    if (!pilot || pilot->others_most_of.empty()) return Json(own.others_most);
+    Json by_name = Json::object();
+    for (const auto& [name, most] : pilot->others_most_of) by_name[name] = most;
+    return by_name;
   };
   for (const simulation::PlansProved& own : run.plans)
     plans.push_back({{"agent", scenario.bodies[own.agent].name},

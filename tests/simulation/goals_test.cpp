@@ -257,8 +257,8 @@ TEST(Goals, CorridorsThatCannotBeKeptAreRefused) {
   EXPECT_EQ(refused([](Pilot& p) { p.guide.clearance.longitudinal = false, p.fastest = kEver; }),
             pilot + "goals[0].corridor");
   // Of each body its own bound of accelerations, by name.
-  EXPECT_EQ(refused([](Pilot& p) { p.others_most_of["C"] = 1; }), pilot + "others_most");
-  EXPECT_EQ(refused([](Pilot& p) { p.others_most_of["B"] = -1; }), pilot + "others_most.B");
+  EXPECT_EQ(refused([](Pilot& p) { p.others_most_of = {{"C", 1}}; }), pilot + "others_most");
+  EXPECT_EQ(refused([](Pilot& p) { p.others_most_of = {{"B", -1}}; }), pilot + "others_most.B");
 }
 
 TEST(Goals, WhatCannotBeIsRefusedByName) {

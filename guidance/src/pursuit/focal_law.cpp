@@ -16,11 +16,11 @@ using Eigen::Vector2d;
 double wrapped(double angle) { return std::remainder(angle, 2 * std::numbers::pi); }
 
 /// Of one focus from A.
-struct Sight {
+struct Seen {
   Vector2d p, v, a;  // a without A's acceleration
   double c, s, n;    // p x v, p.v, v.v
 
-  Sight(const FocalState& f, std::size_t i)
+  Seen(const FocalState& f, std::size_t i)
       : p(f.foci[i] - f.position),
         v(f.velocities[i] - f.velocity),
         a(f.accelerations[i]),
@@ -34,7 +34,7 @@ struct Sight {
 struct SourceForm {
   double y, by_c[2]{}, by_s[2]{}, by_n[2]{};
 
-  SourceForm(const Sight& one, const Sight& two, double a) {
+  SourceForm(const Seen& one, const Seen& two, double a) {
     const double n1 = one.n, n2 = two.n;
     y = -4 * a * a * n1 * n2;
     by_n[0] = -4 * a * a * n2;
@@ -69,20 +69,20 @@ struct SourceForm {
   }
 };
 
-void source_form(const FocalState& state, const Sight (&sights)[2], FocalRates& f) {
+void source_form(const FocalState& state, const Seen (&sights)[2], FocalRates& f) {
   const SourceForm y(sights[0], sights[1], state.a);
   f.y1 = y.y;
   // The term that (4.11) leaves out.
   f.drift1 = -8 * state.a * state.a_rate * sights[0].n * sights[1].n;
   for (int i = 0; i < 2; ++i) {
-    const Sight& s = sights[i];
+    const Seen& s = sights[i];
     const Vector2d gradient = y.by_c[i] * left(s.p) + y.by_s[i] * s.p + 2 * y.by_n[i] * s.v;
     f.drift1 += y.by_s[i] * s.n + gradient.dot(s.a);
     f.by_acceleration1 -= gradient;
   }
 }
 
-void polynomial_form(const FocalState& state, const Sight (&sights)[2], FocalRates& f) {
+void polynomial_form(const FocalState& state, const Seen (&sights)[2], FocalRates& f) {
   const Vector2d v = 0.5 * (sights[0].v + sights[1].v), a = 0.5 * (sights[0].a + sights[1].a);
   const Vector2d between = state.foci[0] - state.foci[1];
   const double n = v.squaredNorm(), u1 = cross(sights[0].p, v), u2 = cross(sights[1].p, v);
@@ -102,27 +102,27 @@ double angle_of(const Vector2d& v) { return std::atan2(v.y(), v.x()); }
 }  // namespace
 
 FocalRates focal_cone(const FocalState& state, FocalForm form) {
-  const Sight sights[] = {{state, 0}, {state, 1}};
+  const Seen sights[] = {{state, 0}, {state, 1}};
   FocalRates f;
   form == FocalForm::source ? source_form(state, sights, f) : polynomial_form(state, sights, f);
   f.y2 = sights[0].n;
   f.drift2 = 2 * sights[0].v.dot(sights[0].a);
   f.by_acceleration2 = -2 * sights[0].v;
   double v_r = 0;
-  for (const Sight& s : sights) v_r += s.p.isZero(0) ? 0 : s.s / s.p.norm();
+  for (const Seen& s : sights) v_r += s.p.isZero(0) ? 0 : s.s / s.p.norm();
   f.closing = v_r < 0;
   return f;
 }
 
 double least_focal_sum(const FocalState& state) {
-  const Sight one(state, 0), two(state, 1);
+  const Seen one(state, 0), two(state, 1);
   const auto value = [&](double t) {
     return (one.p + t * one.v).norm() + (two.p + t * two.v).norm() - 2 * (state.a + t * state.a_rate);
   };
   // A norm's slope at its zero is any number up to its speed; 0 will do.
   const auto slope = [&](double t) {
     double sum = -2 * state.a_rate;
-    for (const Sight* s : {&one, &two}) {
+    for (const Seen* s : {&one, &two}) {
       const Vector2d p = s->p + t * s->v;
       const double r = p.norm();
       sum += r > 0 ? p.dot(s->v) / r : 0;
@@ -147,7 +147,7 @@ double least_focal_sum(const FocalState& state) {
   }
   // Where both foci stand on the course the least can be in a kink, at the nearest approach of one of them.
   double least = std::min(value(low), value(high));
-  for (const Sight* s : {&one, &two})
+  for (const Seen* s : {&one, &two})
     if (s->n > 0 && s->s < 0) least = std::min(least, value(-s->s / s->n));
   return least;
 }

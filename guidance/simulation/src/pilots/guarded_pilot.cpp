@@ -31,8 +31,10 @@ class FlyingGuarded : public FlyingLaw {
   FlyingGuarded(const Pilot& pilot, const Scenario& scenario, std::size_t self, const RunOptions& options)
       : FlyingLaw(pilot, scenario, self, options), options_(courses_of(pilot)), navigator_(options_) {
     for (const Body& body : scenario.bodies) {
-      const auto own = pilot.others_most_of.find(body.name);
-      swerves_of_.push_back(own != pilot.others_most_of.end() ? own->second : pilot.others_most);
+      double most = pilot.others_most;
+      for (const auto& [name, own] : pilot.others_most_of)
+        if (name == body.name) most = own;
+      swerves_of_.push_back(most);
     }
   }
 

@@ -15,10 +15,10 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
-#include <map>
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace vericone::simulation {
@@ -178,7 +178,7 @@ struct Pilot {
   double fastest = std::numeric_limits<double>::infinity();
   std::size_t looks = 0;   // of a guarded pilot, NavigatorOptions::looks
   double others_most = 0;  // m/s^2, of a guarded pilot, NavigatorOptions::others_most
-  std::map<std::string, double> others_most_of = {};  // m/s^2, by name, in place of it
+  std::vector<std::pair<std::string, double>> others_most_of;  // m/s^2, by name, in place of it
   /// What it measures of the bodies it minds; left out: it knows them. Its law sees nothing else, so neither
   /// does it know when a body has been passed but by what it measures.
   std::optional<Sensor> sensor;
