@@ -159,7 +159,8 @@ class Notation(unittest.TestCase):
                 ("{file: q.yaml, center: [1, 0, 0]}", "obstacle.center: got [1.0,0.0,0.0], must be left out"),
                 ("{file: q.yaml, radius: 1}", "obstacle.radius: got an unknown field"),
                 ("{pieces: []}", "obstacle.pieces: got [], must be a list of bodies"),
-                ("{pieces: [{center: [0, 0, 0], semi_axes: [1, 1, 1]}, {points: [[0, 0, 0]]}]}", "obstacle.pieces[1]")):
+                ("{pieces: [{points: [[0, 0, 0]]}, {center: [0, 0, 0], semi_axes: [1, 1, 1], "
+                 "hyperboloids: [{sheets: 2, semi_axes: [0.5, 1, 1]}]}]}", "obstacle.pieces[1]")):
             with self.subTest(body):
                 scene = self.write("bad.yaml", f"agent: {AGENT}\nobstacle: {body}\n")
                 done = run("cone", scene)

@@ -180,7 +180,8 @@ class Schemas(unittest.TestCase):
         # Every kind of body names its own fields; together they are the schema's, but for what every body may have.
         fields = {"file", "velocity"}
         for kind in ("center: [9, 0, 0], semi_axes: [1, 1, 1]", "mesh: a", "cloud: a", "octree: a", "hull: a", "points: []",
-                     "pieces: []", "file: a"):
+                     "cylinder: {}", "capsule: {}", "cone: {}", "frustum: {}", "box: {}", "disc: {}", "robot: a", "pieces: []",
+                     "file: a"):
             fields |= self.taken("check", pair % f"{{{kind}, zzz: 1}}", "obstacle.zzz")
         flat = "agent: {center: [0, 0], semi_axes: [1, 1]}\nobstacle: {center: [9, 0], semi_axes: [1, 1], zzz: 1}\n"
         fields |= self.taken("check", flat, "obstacle.zzz")

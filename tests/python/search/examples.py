@@ -213,6 +213,7 @@ def bodies(ask: Ask) -> None:
     for name in ("Ellipse", "Ellipsoid", "CombinedEllipse", "CombinedEllipsoid", "HullBody", "Body", "WorldBody", "ErrorSet", "Interval", "nadir"):
         ask(name)
     flat, solid = v.WorldBody(FLAT), v.WorldBody(LONG)
+    each(ask, flat, "containing_ellipse")
     for own, x in ((FLAT, [1, 0.2]), (LONG, [1, 0.2, 0.3]), (STAR, [1, 0.2]), (DENT, [1, 0.2, 0.3])):
         name = kind(own)
         each(ask, own, "translated", x)

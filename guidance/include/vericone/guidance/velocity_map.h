@@ -45,7 +45,7 @@ struct VelocityCell {
 
 struct VelocityMap {
   std::vector<VelocityCell> cells;                // they cover the box and have no more than sides in common
-  double colliding = 0, safe = 0, undecided = 0;  // shares of the box (of its section), 1 in all
+  double colliding = 0, safe = 0, undecided = 0;  // each a fraction of the box, or of its section
   std::uint32_t safe_regions = 0;                 // of VelocityCell::region
   std::uint64_t asked = 0;                        // cells
   bool complete = true;                           // false: `most_cells` did not do
