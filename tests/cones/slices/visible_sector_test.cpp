@@ -271,7 +271,9 @@ TEST(VisibleSector, NumbersThatAreNotFiniteOrBeyondDoubles) {
       const std::vector<Vector2d> points{{way, 0}, {way, way}};
       for (const VisibleSector& s : {visible_sector(agent, points), sector_of_points(agent, points)}) {
         EXPECT_EQ(s.sector.has_value(), s.reason == NoSector::none) << size << ' ' << way;
-        if (s.sector) EXPECT_TRUE(std::isfinite(s.sector->psi) && std::isfinite(s.sector->theta_b));
+        if (s.sector) {
+          EXPECT_TRUE(std::isfinite(s.sector->psi) && std::isfinite(s.sector->theta_b));
+        }
       }
     }
   // The sector of a disc of 0.6 d against two points at d: the same at every scale of which squares are.
