@@ -5,14 +5,15 @@
 #include <vericone/geometry/error.h>
 #include <algorithm>
 #include <optional>
+#include <string>
 
 namespace vericone::guidance::banding {
 
 /// Of cylinders and other bodies of flat, round and straight parts no question is asked here yet.
-inline void refuse_round_parts(const Body& body) {
+inline void refuse_round_parts(const Body& body, const std::string& field = "body") {
   const Assembly* pieces = body.assembly();
   if (body.convex() || (pieces && pieces->kind() == PieceKind::convex))
-    throw InputError("body", "one with round parts beside others, or a margin",
+    throw InputError(field, "one with round parts beside others, or a margin",
                      "an ellipsoid, a hull, or a union of them");
 }
 

@@ -36,8 +36,11 @@ Placed swollen(const Placed& body, double radius) {
 }  // namespace
 
 Threats::Threats(const Placed& agent, std::span<const Intruder> intruders, double margin)
-    : intruders_(intruders), margin_(margin), own_(convex_parts(agent)) {
+    : intruders_(intruders), margin_(margin) {
+  refuse_round_parts(agent.body, "agent");
+  own_ = convex_parts(agent);
   for (const Intruder& intruder : intruders) {
+    refuse_round_parts(intruder.body.body, "obstacles[" + std::to_string(kept_.size()) + "]");
     Kept& kept = kept_.emplace_back();
     kept.tree = intruder.body.body.assembly();
     if (!kept.tree) kept.flat = convex_parts(intruder.body);
