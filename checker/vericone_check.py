@@ -2,13 +2,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Checks certificates: vericone_check.py FILE... (`-` is the standard input). Python 3.10 or later, nothing else.
 
-A file is one certificate, or one a line; docs/reference/certificates.md has the format, version 1. Printed is what is
-proved, from what was read, or the first inequality that does not hold. Exit status: 0 all accepted, 1 one is refused,
-2 one is no certificate (and none is refused).
+A file is one certificate, or one a line; docs/reference/certificates.md has the format, version 1. Printed is what
+is proved, from what was read, or the first inequality that does not hold. Exit status: 0 all accepted, 1 one is
+refused, 2 one is no certificate (and none is refused).
 
 All is computed with fractions and integers. What is proved is of a `Motion`, read from the claim alone; a proof is a
-list of numbers that are tried on it. The parts: numbers and fields, algebra, bodies, claims, rules of verdicts, runs,
-the program. The page says of each rule what it checks.
+list of numbers that are tried on it. The page says of each rule what it checks.
 """
 import argparse
 import hashlib
@@ -18,19 +17,17 @@ import re
 import sys
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from functools import cached_property
+from functools import cache, cached_property
 from math import comb, isqrt, lcm
 from types import SimpleNamespace
 
 class Malformed(Exception): """Not a certificate of this format."""
 class Refused(Exception): """A certificate that does not prove its claim."""
 FAULTS = (Malformed, ValueError, RecursionError, MemoryError)
-def holds(true, inequality):
+def holds(true, inequality, fault=Refused):
     if not true:
-        raise Refused(inequality)
-def form(true, complaint):
-    if not true:
-        raise Malformed(complaint)
+        raise fault(inequality)
+def form(true, complaint): holds(true, complaint, Malformed)
 
 # Numbers and fields. A reader takes a JSON value and returns what it means.
 
@@ -47,12 +44,9 @@ def parsed(text):
     return json.loads(text, parse_float=double, parse_int=double, parse_constant=double, object_pairs_hook=once)
 
 def number(value):
-    if type(value) in (int, float, Fraction):
-        return Fraction(value)
-    form(type(value) is str and len(value) <= LONGEST and re.fullmatch("-?[0-9]+(/[0-9]+)?", value), "no number")
-    top, _, bottom = value.partition("/")
-    form(bottom == "" or int(bottom) > 0, "a denominator of 0")
-    return Fraction(int(top), int(bottom or 1))
+    text = type(value) is str and len(value) <= LONGEST and re.fullmatch("-?[0-9]+(/0*[1-9][0-9]*)?", value, re.A)
+    form(text or type(value) in (int, float, Fraction), "no number, or a denominator of 0")
+    return Fraction(value)
 def positive(value, least=0):
     form(number(value) >= least, f"a number below {least}")
     return number(value)
@@ -105,12 +99,8 @@ class Form:
     def __init__(self, numbers, scale=1):
         common = lcm(*(x.denominator for x in numbers))
         self.c, self.scale = [x.numerator * (common // x.denominator) for x in numbers], scale * common
-    def on(self, scale, size):
-        """The integers on this scale, raised to this size: times (sigma + tau)^m."""
-        m, factor = size - len(self.c), scale // self.scale
-        return convolved([x * factor for x in self.c], [comb(m, k) for k in range(m + 1)])
     def __add__(self, other):
-        (columns, scale) = table([self, other])
+        columns, scale = table([self, other])
         return Form([x + y for x, y in columns], scale)
     def __mul__(self, other):
         other = other if type(other) is Form else Form([other])
@@ -137,10 +127,12 @@ def convolved(a, b):
     return found
 def bernstein(coefficients): return Form([comb(len(coefficients) - 1, k) * x for k, x in enumerate(coefficients)])
 def table(forms):
-    """(for each k the c_k of all, raised to one size, integers on one scale; that scale); a number is a form, too."""
+    """(for each k the c_k of all, raised to one size by (sigma + tau)^m, integers on one scale; that scale)."""
     forms = [x if type(x) is Form else Form([x]) for x in forms]
     scale, size = lcm(*(x.scale for x in forms)), max(len(x.c) for x in forms)
-    return [V(column) for column in zip(*(x.on(scale, size) for x in forms))], scale
+    raised = (convolved([c * (scale // x.scale) for c in x.c],
+                        [comb(size - len(x.c), k) for k in range(size - len(x.c) + 1)]) for x in forms)
+    return [V(column) for column in zip(*raised)], scale
 
 def transposed(rows): return [V(column) for column in zip(*rows, strict=True)]
 def through(rows, x): return V(row @ x for row in rows)
@@ -149,7 +141,6 @@ def unit(size): return [V(ONE if i == j else ZERO for j in range(size)) for i in
 def flat(rows): return [x for row in rows for x in row]
 def bordered(rows, side, corner): return [*(V((*row, x)) for row, x in zip(rows, side)), V((*side, corner))]
 def cross_product(a, b): return V(a[i - 2] * b[i - 1] - a[i - 1] * b[i - 2] for i in range(3))
-
 def inverse(rows):
     """Of a symmetric matrix by elimination, if that is positive definite (all pivots are above 0), else None."""
     size = len(rows)
@@ -176,19 +167,28 @@ def root_above(q):
 
 @dataclass(eq=False)
 class Skin:
-    """About a point p: { x : (x-p)^T S^-1 (x-p) <= 1 }, S = radius^2 I of a ball, where each of `cuts` (as in
-    Body.forms) is not above 0, too; without S these alone. `box`: the points are the low and the high corner."""
+    """About a point p the ellipsoid { p + S m : m.S m <= 1 }, S = 0 where it is None, and all that is within `margin`
+    of it. `ball`: the margin alone. `cuts`: where each of these (as in `forms`) is not above 0, too; if there is
+    neither S nor a ball, all of that. `box`: the points are the low and the high corner. `parts`: each point has a
+    skin of its own, these, and the hull of all that is the piece."""
     shape: list = None
-    radius: object = None
+    margin: Fraction = ZERO
+    ball: bool = False
     cuts: tuple = ()
     box: bool = False
+    parts: tuple = ()
 
-    @cached_property
-    def forms(self):
-        own = self.shape and (unit(len(self.shape)) if self.radius is not None else inverse(self.shape))
+    @cache
+    def forms(self, size):
+        """The matrices H of the points x where X^T H X <= 0 for each, X = (x - p, 1)."""
+        own = unit(size) if self.ball else self.shape and inverse(self.shape)
         holds(own or not self.shape, "det S > 0: the body is not flat")
-        level = ONE if self.radius is None else self.radius ** 2
-        return ([bordered(own, zero(len(own)), -level)] if own else []) + [*self.cuts]
+        level = self.margin ** 2 if self.ball else ONE
+        return ([bordered(own, zero(size), -level)] if own else []) + [*self.cuts]
+    def squares(self, n):
+        """Of the roots that it adds to n.p, where it is the farthest along n."""
+        own = [n @ through(self.shape, n)] if self.shape else []
+        return own + ([n @ n * self.margin ** 2] if self.margin else [])
 
 HULL, BOX = Skin(), Skin(box=True)
 
@@ -207,14 +207,14 @@ class Body:
     def corners(self, k):
         """Of a piece that is the hull of points."""
         skin, points = self.pieces[k][0], self.points(k)
-        form(skin in (HULL, BOX) or skin.radius == 0, f"piece {k} has no corners")
+        form(skin in (HULL, BOX) or skin.ball and not skin.margin, f"piece {k} has no corners")
         return points if not skin.box else [
             V(points[bits >> i & 1][i] for i in range(len(points[0]))) for bits in range(1 << len(points[0]))]
     def forms(self, k):
-        """The matrices H of a piece that is where X^T H X <= 0 for each, X = (x - its first point, 1)."""
+        """As Skin.forms, of a piece about its first point."""
         skin, points = self.pieces[k][0], self.points(k)
-        form(skin is not HULL, f"weights of piece {k} are missing")
-        return skin.forms if not skin.box else [
+        form(skin is not HULL and not skin.parts, f"weights of piece {k} are missing")
+        return skin.forms(len(points[0])) if not skin.box else [
             bordered([e * e[i] for i in range(len(e))], e * (e @ (points[0] - points[1]) / 2), ZERO)
             for e in unit(len(points[0]))]
 
@@ -230,20 +230,29 @@ def boxes(ends):
     form(all(x >= 0 for low, high in ends for x in high - low), "a box with low > high")
     return body_of([x for both in ends for x in both], [(BOX, (2 * k, 2 * k + 1)) for k in range(len(ends))])
 def balls(points, radius):
-    skin = Skin([row * radius ** 2 for row in unit(len(points[0]))], radius)
+    skin = Skin(margin=radius, ball=True)
     return body_of(points, [(skin, (k,)) for k in range(len(points))])
-def ellipsoid(read):
+def about(size, skin): return body_of([zero(size)], [(skin, (0,))])
+def shape_of(read):
     form((read.factor is None) != (read.shape is None), "an ellipsoid has either factor or shape")
     form(read.factor or inverse(read.shape), "a shape that is not positive definite")
-    shape = [through(read.factor, row) for row in read.factor] if read.factor else read.shape
-    cuts = tuple(bordered(cut.matrix, zero(len(shape)), -cut.level) for cut in getattr(read, "delimiters", ()))
-    return body_of([zero(len(shape))], [(Skin(shape, cuts=cuts), (0,))])
+    return [through(read.factor, row) for row in read.factor] if read.factor else read.shape
+def ellipsoid(read):
+    shape = shape_of(read)
+    return about(len(shape), Skin(shape, cuts=tuple(
+        bordered(cut.matrix, zero(len(shape)), -cut.level) for cut in getattr(read, "delimiters", ()))))
 def quadrics(read):
     form(len({len(rows) for rows in read.matrices}) == 1, "matrices of two sizes")
-    return body_of([zero(len(read.matrices[0]) - 1)], [(Skin(cuts=tuple(read.matrices)), (0,))])
+    return about(len(read.matrices[0]) - 1, Skin(cuts=tuple(read.matrices)))
+def convex(read):
+    margin = read.margin or ZERO
+    skins = tuple(Skin(shape_of(part) if part.factor or part.shape else None, margin) for part in read.parts)
+    form(all(len(skin.shape or part.center) == len(part.center) for skin, part in zip(skins, read.parts)),
+         "parts of two sizes")
+    return body_of([part.center for part in read.parts], [(Skin(margin=margin, parts=skins), range(len(skins)))])
 def mesh(read):
-    count = len(read.points)
-    return hulls(read.points, [[index(i, count, "a triangle's point") for i in three] for three in read.triangles])
+    return hulls(read.points, [[index(i, len(read.points), "a triangle's point") for i in three]
+                               for three in read.triangles])
 def union(parts):
     found = body_of([row * Fraction(1, part.scale) for part in parts for row in part.rows], [])
     for part in parts:
@@ -273,11 +282,12 @@ KINDS = {  # fields needed, fields allowed, and the body of what was read
     "ellipsoid": ("", "factor shape", ellipsoid), "delimited": ("delimiters", "factor shape", ellipsoid),
     "ball": ("center radius", "", lambda read: balls([read.center * 0], read.radius)),
     "hull": ("points", "", lambda read: hulls(read.points, [range(len(read.points))])),
+    "convex": ("parts", "margin", convex), "quadrics": ("matrices", "", quadrics),
     "box": ("low high", "", lambda read: boxes([(read.low, read.high)])), "mesh": ("points triangles", "", mesh),
     "cloud": ("points radius", "", lambda read: balls(read.points, read.radius)),
     "boxes": ("boxes", "", lambda read: boxes(read.boxes)), "octree": ("low cell depth tree", "", octree),
-    "quadrics": ("matrices", "", quadrics), "union": ("pieces", "", None), "file": ("name sha256", "", None)}
-PARTS = ("ellipsoid", "ball", "hull", "box", "delimited", "quadrics")  # of a union
+    "union": ("pieces", "", None), "file": ("name sha256", "", None)}
+PARTS = ("ellipsoid", "ball", "hull", "box", "convex", "delimited", "quadrics")  # of a union
 
 class Reader:
     """Reads bodies, and the files beside the certificate that have some."""
@@ -326,8 +336,10 @@ class Side:
         """Of each skin the numbers of the points under it (of boxes: of both ends)."""
         found = {}
         for skin, numbers in map(self.body.pieces.__getitem__, self.group):
-            found.setdefault(skin, set()).update([numbers] if skin.box else numbers)
-        form(all(skin.shape or not skin.cuts for skin in found), "quadrics are only what something is inside of")
+            for part, i in zip(skin.parts or [skin] * len(numbers), [numbers] if skin.box else numbers):
+                found.setdefault(part, set()).add(i)
+        form(all(skin.shape or skin.ball or not skin.cuts for skin in found),
+             "quadrics are only what something is inside of")
         return found
     def tops(self, n):
         """Of each skin the largest n.x of the points under it, of integers n; times the body's scale."""
@@ -338,8 +350,8 @@ class Side:
     def reach(self, n):
         """Not below n.x in these pieces."""
         (m,), scale = table(n)
-        roots = {skin: root_above(n @ through(skin.shape, n)) if skin.shape else 0 for skin in self.points}
-        return max(Fraction(top, scale * self.body.scale) + roots[skin] for skin, top in self.tops(m).items())
+        return max(Fraction(top, scale * self.body.scale) + sum(map(root_above, skin.squares(n)))
+                   for skin, top in self.tops(m).items())
     def at_most(self, n, most, multipliers=None, q=None, when=""):
         """n.R x <= most for the points x of these pieces, R the rotation of q, if any; all may be forms."""
         n, square = unturned(q, n) if q else (n, Form([ONE]))
@@ -350,14 +362,18 @@ class Side:
             r = Form([column[-1] * self.body.scale - top[skin] for column, top in zip(columns, tops)], unit_of_r)
             holds(r.not_negative(), f"{self.who}: r = l q.q - n.N(q) p is not negative{when}")
             if multipliers is not None:
-                form(len(self.group) == 1 and skin.shape, f"{self.who}: multipliers are of one round piece")
-                rows = weighted(skin.forms, multipliers)
+                form(len(self.points) == len(self.group) == 1 and (skin.ball or skin.shape and not skin.margin),
+                     f"{self.who}: multipliers are of one round piece")
+                rows = weighted(skin.forms(len(n)), multipliers)
                 holds(rows[-1][-1] < 0, f"{self.who}: L > 0")
                 holds(definite(bordered([row[:-1] for row in rows[:-1]], n, r * r * (-1 / rows[-1][-1]))),
                       f"{self.who}: [[Q, n], [n, r^2 / L]] is positive definite{when}")
-            elif skin.shape:
-                holds((r * r - n @ through(skin.shape, n)).not_negative(),
-                      f"{self.who}: r^2 - n.S n is not negative{when}")
+                continue
+            squares = skin.squares(n)
+            rest = r * r - sum(squares)
+            holds(not squares or rest.not_negative(), f"{self.who}: r^2 - n.S n is not negative{when}")
+            holds(len(squares) < 2 or (rest * rest - squares[0] * squares[1] * 4).not_negative(),
+                  f"{self.who}: r is not below both roots{when}")
     def named(self, read):
         """The number of the piece that a proof names."""
         k = getattr(read, f"{self.who}_piece", None)
@@ -365,29 +381,43 @@ class Side:
         k = index(0 if k is None else k, len(self.body.pieces), f"{self.who}_piece")
         holds(k in self.group, f"{self.who}_piece is of its group")
         return k
-    def contains(self, x, k, strictly=False, weights=None):
-        """x is a point of piece k: by its inequalities, or as the mean of corners."""
-        if weights is not None:
-            return holds(self.mean(k, weights, strictly) == x, f"{self.who}: the point is the mean of the corners")
-        y = V((*(x - self.body.points(k)[0]), ONE))
-        values = [y @ through(rows, y) for rows in self.body.forms(k)]
-        holds(all(value < 0 or value == 0 and not strictly for value in values),
-              f"{self.who}: the point is {'strictly ' * strictly}in it")
-    def mean(self, k, weights, strictly=False):
-        """The sum of weight corner, of a piece; strictly: of corners that span the space."""
-        own, size = self.body.corners(k), len(self.body.rows[0])
-        corners = [own[index(i, len(own), "a corner")] for i, _ in weights]
-        form(len({i for i, _ in weights}) == len(weights), f"{self.who}_weights: a corner twice")
-        weights = V(number(x) for _, x in weights)
-        holds(all(x > 0 for x in weights) and sum(weights) == 1, f"{self.who}_weights > 0, of sum 1")
-        holds(not strictly or spans([x - corners[0] for x in corners], size), f"{self.who}: corners span the space")
-        return through(transposed(corners), weights)
+    def contains(self, x, k, weights=None):
+        """x is a point of piece k, by its inequalities or as a mean; told are ways: some vectors that span what it can
+        be moved along, a little, there and back, without leaving it."""
+        size, margin = len(x), self.body.pieces[k][0].margin
+        if weights is None:
+            y = V((*(x - self.body.points(k)[0]), ONE))
+            values = [y @ through(rows, y) for rows in self.body.forms(k)]
+            holds(all(value <= 0 for value in values), f"{self.who}: the point is in it")
+            return unit(size) if all(value < 0 for value in values) else []
+        mean, ways = self.mean(k, weights)
+        rest = (x - mean) @ (x - mean)
+        holds(rest <= margin ** 2, f"{self.who}: the point is the mean of the corners")
+        return ways if margin == 0 else unit(size) if rest < margin ** 2 else []
+    def mean(self, k, weights):
+        """(the sum of weight corner, or of weight p + S m, m.S m <= weight^2; ways as above, but for the margin)."""
+        skin = self.body.pieces[k][0]
+        own, size = self.body.points(k) if skin.parts else self.body.corners(k), len(self.body.rows[0])
+        form(len({index(i, len(own), "a corner") for i, *_ in weights}) == len(weights),
+             f"{self.who}_weights: a corner twice")
+        total, x, ways, free = ZERO, zero(size), [], True
+        for i, weight, *along in weights:
+            corner, weight = own[i], number(weight)
+            shape, m = skin.parts[i].shape if skin.parts else None, vector(along[0]) if along else zero(size)
+            form(shape or not along, f"{self.who}_weights: a corner has no width")
+            image = through(shape, m) if shape else m
+            holds(weight > 0 and m @ image <= weight ** 2, f"{self.who}_weights: weight > 0, m.S m <= weight^2")
+            total, x = total + weight, x + corner * weight + image
+            ways, free = [*ways, corner - own[weights[0][0]], *(shape or ())], free and m @ image < weight ** 2
+        holds(total == 1, f"{self.who}_weights of sum 1")
+        return x, ways if free else []
 
 @dataclass
 class Motion:
-    """What a claim is about: two sides, times from t0 to t1 (None: without end), a distance, sets of errors."""
-    a: Side
-    b: Side
+    """What is claimed: of two sides, for times from t0 to t1 (None: without end), a distance, sets of errors."""
+    says: str
+    agent: Side
+    obstacle: Side
     t0: Fraction = ZERO
     t1: object = ZERO
     by: Fraction = ZERO
@@ -395,20 +425,26 @@ class Motion:
     cuts: tuple = ()  # of enclosing halves: (a, s, sign) with sign (a.y - s) >= 0, y = x - t v_B
 
     @property
-    def w(self): return self.a.v - self.b.v
+    def w(self): return self.agent.v - self.obstacle.v
+    @property
+    def sides(self): return self.agent, self.obstacle
     def at(self, t):
         holds(self.t0 <= t and (self.t1 is None or t <= self.t1), f"time {say(t)} is within the horizon")
     def least(self, gap, speed):
         """Of gap - t speed."""
         holds(self.t1 is not None or speed <= 0, f"n.w = {say(speed)} <= 0, as the horizon has no end")
         return min(gap - t * speed for t in (self.t0, self.t1) if t is not None)
+    def stays(self, time, ways):
+        """What the two have in common, with these ways, they have when the agent and its velocity change a little."""
+        within = self.t0 < time and (self.t1 is None or time < self.t1)
+        holds(spans(ways + [self.w] * within, len(self.w)), "the point is strictly in it")
 
 SAYS = {
     "out": "no common point at any time of the horizon", "in": "they meet within the horizon, not merely touching",
     "on": "they touch within the horizon, and no pieces overlap", "disjoint": "no common point",
     "overlapping": "they overlap", "touching": "they touch, and no pieces overlap",
     "depends": "some errors lead to a common point within the horizon, some to none",
-    "in for all": "for any errors there is a common point at a time of the horizon",
+    "in_for_all": "for any errors there is a common point at a time of the horizon",
     "inside": "each point of the agent is in the obstacle",
     "apart": "no two points within the tubes of a pair are as near as `by` at any time",
     "meet": "whatever the motions within the tubes, the two have a common point at a time",
@@ -417,10 +453,8 @@ SAME = {"disjoint": "out", "overlapping": "in", "touching": "on"}
 
 def set_of(name, read, origin):
     """A set of errors as a side about the origin, or None."""
-    if read is not None:
-        return Side(name, balls([origin], read.ball) if read.ball is not None else
-                    boxes([(-read.box, read.box)]) if read.box else
-                    ellipsoid(SimpleNamespace(factor=read.factor, shape=None)), (0,))
+    return read and Side(name, balls([origin], read.ball) if read.ball is not None else boxes([(-read.box, read.box)])
+                         if read.box else ellipsoid(SimpleNamespace(factor=read.factor, shape=None)), (0,))
 
 def verdict(claim, proof, reader):
     """(what is proved, what was read of the claim)."""
@@ -432,63 +466,62 @@ def verdict(claim, proof, reader):
         body, its = reader.body(getattr(read, who), who, "velocity" * moving)
         setattr(read, who, its)
         sides.append(Side(who, body, range(len(body.pieces)), its.velocity if moving else zero(len(body.rows[0]))))
-    m = Motion(*sides, *(read.horizon if moving else ()), by=getattr(read, "by", None) or ZERO)
-    m.errors = tuple(set_of(name, getattr(read, name, None), m.w * 0)
-                     for name in ("position_error", "velocity_error"))
-    rules = "in for all" if says == "in" and any(m.errors) else SAME.get(says, says)
-    holds(prove(rules, m, proof) or rules != "on", "one of the groups touches")
-    return rules if rules == "in for all" else says, read
+    m = Motion(SAME.get(says, says), *sides, *(read.horizon if moving else ()), by=getattr(read, "by", None) or ZERO)
+    m.errors = tuple(set_of(name, getattr(read, name, None), m.w * 0) for name in ("position_error", "velocity_error"))
+    if says == "in" and any(m.errors):
+        says = m.says = "in_for_all"
+    holds(prove(m, proof) or m.says != "on", "one of the groups touches")
+    return says, read
 
-# Rules of verdicts: what is to be proved, of which motion, and the proof.
+# Rules of verdicts. Each is a check of a Motion and of the proof's fields, which RULES names.
 
-def prove(says, m, proof):
+def prove(m, proof):
+    """Whether something touches, if that is claimed."""
     rule = proof.get("rule") if type(proof) is dict else None
     form(type(rule) is str, "a proof must have a rule")
-    holds(rule in RULES[says], f"{rule[:20]!r} is a rule for {says!r}")
-    return RULES[says][rule](says, m, proof)
+    holds((m.says, rule) in RULES, f"{rule[:20]!r} is a rule for {m.says!r}")
+    check, needed, allowed = RULES[m.says, rule]
+    return check(m, fields(proof, rule, f"rule {needed}", allowed))
 
 def shared(m, read, count):
-    """(the field of m that `of` names, the lists of its pieces that the runs give to each of `count`)."""
+    """The lists of pieces that the runs give to each of `count`."""
     form(read.of in ("agent", "obstacle"), "`of` is the agent or the obstacle")
-    name = "a" if read.of == "agent" else "b"
-    group, first, parts = getattr(m, name).group, 0, [[] for _ in range(count)]
+    group, first, parts = getattr(m, read.of).group, 0, [[] for _ in range(count)]
     for k, length in read.runs:
         holds(index(length, len(group) - first + 1, "the count of a run") > 0, "runs have pieces")
         parts[index(k, count, "what a run is of")].extend(group[first:first + length])
         first += length
     holds(first == len(group) and all(parts), f"the runs' {first} pieces are all {len(group)}, and none is left out")
-    return name, parts
+    return parts
 
-def groups(says, m, proof):
-    """For `on` it tells whether a part touches; others may be out."""
-    read, touched = fields(proof, "groups", "rule of runs proofs"), False
-    name, parts = shared(m, read, len(read.proofs))
-    for part, sub in zip(parts, read.proofs):
-        its = "out" if says == "on" and type(sub) is dict and sub.get("rule") not in ("touch", "groups") else says
-        touched = bool(prove(its, replace(m, **{name: replace(getattr(m, name), group=part)}), sub)) or touched
+def groups(m, read):
+    """Of `on` some parts may be out."""
+    touched = False
+    for part, sub in zip(shared(m, read, len(read.proofs)), read.proofs):
+        out = m.says == "on" and type(sub) is dict and sub.get("rule") not in ("touch", "groups")
+        touched = bool(prove(replace(m, says="out" if out else m.says, **{
+            read.of: replace(getattr(m, read.of), group=part)}), sub)) or touched
     return touched
 
-def cover(says, m, proof):
+def cover(m, read):
     """Boxes that hold the pieces stand for them."""
-    read = fields(proof, "cover", "rule of boxes runs proof")
-    name, parts = shared(m, read, len(read.boxes))
-    side = getattr(m, name)
+    parts = shared(m, read, len(read.boxes))
+    side = getattr(m, read.of)
     for (low, high), part in zip(read.boxes, parts):
         for skin, points in Side(side.who, side.body, part).points.items():
-            form(skin in (HULL, BOX) or skin.radius is not None, "cover is for corners and balls")
-            rows, radius = [side.body.rows[i] for i in (flat(points) if skin.box else points)], skin.radius or 0
+            form(not skin.shape and not skin.cuts, "cover is for corners and balls")
+            rows, radius = [side.body.rows[i] for i in (flat(points) if skin.box else points)], skin.margin
             for a, b, column in zip(low, high, zip(*rows), strict=True):
                 holds((a + radius) * side.body.scale <= min(column) and max(column) <= (b - radius) * side.body.scale,
                       f"{side.who}: {len(part)} pieces are in the box from {say(low)} to {say(high)}")
-    prove(says, replace(m, **{name: replace(side, body=boxes(read.boxes), group=range(len(parts)))}), read.proof)
+    prove(replace(m, **{read.of: replace(side, body=boxes(read.boxes), group=range(len(parts)))}), read.proof)
 
-def times(says, m, proof):
-    read = fields(proof, "times", "rule cuts proofs")
+def times(m, read):
     ends = [m.t0, *read.cuts, m.t1]
     form(len(read.proofs) == len(ends) - 1, "times have one proof more than cuts")
     for start, end, sub in zip(ends, ends[1:], read.proofs):
         holds(end is None or start < end, f"times grow: {say(start)} < {say(end)}")
-        prove(says, replace(m, t0=start, t1=end), sub)
+        prove(replace(m, t0=start, t1=end), sub)
 
 def weighted(matrices, multipliers):
     """Their sum with these multipliers."""
@@ -497,20 +530,20 @@ def weighted(matrices, multipliers):
     size = len(matrices[0])
     return [sum((rows[i] * number(x) for x, rows in zip(multipliers, matrices)), zero(size)) for i in range(size)]
 
-def plane(says, m, proof):
+def plane(m, read):
     holds(not m.cuts, "no plane within halves")
-    bounded = type(proof) is dict and "agent_at_most" in proof
-    form(bounded or not m.by and not any(m.errors), "agent_at_most is missing, as there is `by` or an error")
-    more = " agent_at_most obstacle_at_least" * bounded + "".join(f" {side.who}_at_most" for side in m.errors if side)
-    read = fields(proof, "plane", "rule" + more, "n across_w" + " agent_multipliers obstacle_multipliers" * bounded)
     form((read.n is None) != (read.across_w is None), "a plane has either n or across_w")
-    n, most = read.n or across(m.w, *read.across_w), []
-    for side, name, sign in ((m.a, "agent_at_most", 1), (m.b, "obstacle_at_least", -1),
-                             *((side, side and f"{side.who}_at_most", 1) for side in m.errors)):
-        most.append(getattr(read, name) * sign if side and bounded else side.reach(n * sign) if side else ZERO)
-        if side and bounded:
-            side.at_most(n * sign, most[-1], getattr(read, f"{side.who}_multipliers", None))
-    gap = m.least(-sum(most[:3]), n @ m.w + most[3])
+    n, levels = read.n or across(m.w, *read.across_w), []
+    exact = m.by or any(m.errors) or any(side.body.pieces[k][0].parts for side in m.sides for k in side.group)
+    bounded = exact or read.agent_at_most is not None
+    for side, name, sign in zip((*m.sides, *m.errors), LEVELS, (1, -1, 1, 1)):
+        level, multipliers = getattr(read, name), getattr(read, f"{side and side.who}_multipliers", None)
+        form((level is not None) == bool(side and bounded), f"{name} is missing, or is none of a plane's here")
+        form(bounded or multipliers is None, "multipliers are of levels")
+        levels.append(level * sign if level is not None else side.reach(n * sign) if side else ZERO)
+        if level is not None:
+            side.at_most(n * sign, levels[-1], multipliers)
+    gap = m.least(-sum(levels[:3]), n @ m.w + levels[3])
     holds(gap > 0 and (not m.by or gap ** 2 > m.by ** 2 * (n @ n)), f"the gap {say(gap)} > {say(m.by)} |n|, and > 0")
 
 def across(w, k, a, b):
@@ -520,53 +553,56 @@ def across(w, k, a, b):
     n = {i: number(a) * w[k], j: number(b) * w[k], k: -number(a) * w[i] - number(b) * w[j]}
     return V(n[axis] for axis in range(3))
 
-WHERE = "agent_piece obstacle_piece agent_weights obstacle_weights"
-
-def common_point(m, read, inside=None):
+def common_point(m, read):
+    """The ways of both."""
     m.at(read.time)
-    for side in (m.a, m.b):
-        x, weights = read.point - side.v * read.time, getattr(read, f"{side.who}_weights")
-        side.contains(x, side.named(read), side.who == inside, weights)
+    return [side.contains(read.point - side.v * read.time, side.named(read), getattr(read, f"{side.who}_weights"))
+            for side in m.sides]
 
-def touch(says, m, proof):
-    read = fields(proof, "touch", "rule n time point", WHERE)
+def touch(m, read):
     common_point(m, read)
     holds(any(read.n), "n != 0")
-    for side, n in ((m.a, read.n), (m.b, -read.n)):
+    for side, n in zip(m.sides, (read.n, -read.n)):
         side.at_most(n, n @ (read.point - side.v * read.time))
     speed = read.n @ m.w
     holds(speed == 0 or (speed > 0 and read.time == m.t1) or (speed < 0 and read.time == m.t0),
           f"n.w = {say(speed)} is 0, or they touch at that end of the horizon")
     return True
 
-def point(says, m, proof):
-    read = fields(proof, "point", "rule time point inside", WHERE)
-    form(read.inside in ("agent", "obstacle"), "inside must be agent or obstacle")
-    common_point(m, read, read.inside)
+def point(m, read):
+    form(read.inside in ("agent", "obstacle", "both"), "inside must be agent, obstacle or both")
+    of_agent, of_obstacle = common_point(m, read)
+    if read.inside == "both":
+        return m.stays(read.time, of_agent + of_obstacle)
+    holds(spans(of_agent if read.inside == "agent" else of_obstacle, len(m.w)), f"{read.inside}: strictly in it")
 
-def cross(says, m, proof):
-    read = fields(proof, "cross", "rule time pairs", "agent_piece obstacle_piece")
+def cross(m, read):
+    """Means of corners, from weights of pairs of them."""
     m.at(read.time)
-    a, b = (side.body.corners(side.named(read)) for side in (m.a, m.b))
-    ways = [b[index(j, len(b), "a corner")] - a[index(i, len(a), "a corner")] for i, j, _ in read.pairs]
-    weights = V(number(s) for _, _, s in read.pairs)
-    holds(all(s > 0 for s in weights), "weights > 0")
-    holds(not any(through(transposed(ways), weights) - m.w * (read.time * sum(weights))), "sum s (d - t w) = 0")
-    if not spans([way - ways[0] for way in ways], len(m.w)):
-        holds(spans(ways, len(m.w)), "the pairs span the space")
-        holds(m.t0 < read.time and (m.t1 is None or read.time < m.t1), "t0 < t < t1")
+    form(all(type(i) is type(j) is int for i, j, _ in read.pairs), "corners are integers")
+    holds(all(number(s) > 0 for *_, s in read.pairs), "weights > 0")
+    total, found = sum(number(s) for *_, s in read.pairs), []
+    for side, which in zip(m.sides, (0, 1)):
+        weights = {}
+        for pair in read.pairs:
+            weights[pair[which]] = weights.get(pair[which], 0) + number(pair[2]) / total
+        found.append(side.mean(side.named(read), list(weights.items())))
+    (a, of_agent), (b, of_obstacle) = found
+    holds(a + m.w * read.time == b, "sum s (d - t w) = 0")
+    m.stays(read.time, of_agent + of_obstacle)
 
-def forms(says, m, proof):
-    read, size = fields(proof, "forms", "rule agent obstacle", "products"), len(m.w)
-    form(len(m.a.group) == len(m.b.group) == 1 and not m.by and not any(m.errors),
+def forms(m, read):
+    size = len(m.w)
+    form(all(len(side.group) == 1 for side in m.sides) and not m.by and not any(m.errors),
          "forms are of one piece each, and prove no distance and nothing of errors")
     total = [zero(size + 2) for _ in range(size + 2)]  # of (1, x - t v_B, t)
-    for side, multipliers, v in ((m.a, read.agent, m.w), (m.b, read.obstacle, m.w * 0)):
+    for side, v in zip(m.sides, (m.w, m.w * 0)):
+        multipliers, (k,) = getattr(read, side.who), side.group
         if multipliers == []:  # all 0
             continue
-        form(side.body.pieces[side.group[0]][0].shape, "multipliers of forms are of round bodies")
-        rows = weighted(side.body.forms(side.group[0]), items(multipliers))
-        ways = [V((*-side.body.points(side.group[0])[0], 1)), *(V((*e, 0)) for e in unit(size)), V((*-v, 0))]
+        form(side.body.pieces[k][0].shape or side.body.pieces[k][0].ball, "multipliers of forms are of round bodies")
+        rows = weighted(side.body.forms(k), items(multipliers))
+        ways = [V((*-side.body.points(k)[0], 1)), *(V((*e, 0)) for e in unit(size)), V((*-v, 0))]
         total = [line + V(x @ through(rows, y) for y in ways) for line, x in zip(total, ways)]
     for first, second, factor in read.products or ():
         a, b, factor = linear(m, first), linear(m, second), positive(factor)
@@ -587,24 +623,23 @@ def linear(m, name):
         a, s, sign = m.cuts[index(value, len(m.cuts), "a cut")]
         return V((-s * sign, *a * sign, 0))
     form(who in ("agent", "obstacle"), "products are of one, from, until, agent, obstacle, cut")
-    side, a = m.a if who == "agent" else m.b, vector(value)
+    side, a = getattr(m, who), vector(value)
     return V((max(a @ x for x in side.body.corners(side.group[0])), *-a, a @ m.w * (who == "agent")))
 
-def halves(says, m, proof):
-    read = fields(proof, "halves", "rule normal at below above")
+def halves(m, read):
     form(len(read.normal) == len(m.w), "vectors of two sizes")
     for sub, sign in ((read.below, -1), (read.above, 1)):
-        prove(says, replace(m, cuts=(*m.cuts, (read.normal, read.at, sign))), sub)
+        prove(replace(m, cuts=(*m.cuts, (read.normal, read.at, sign))), sub)
 
-def vertices(says, m, proof):
+def vertices(m, read):
     """In integers: X = (x - p, 1) of corners x and forms H, times something above 0."""
-    around = m.b.named(fields(proof, "vertices", "rule", "obstacle_piece"))
-    p, matrices = m.b.body.points(around)[0], []
-    for rows in m.b.body.forms(around):
+    around = m.obstacle.named(read)
+    p, matrices = m.obstacle.body.points(around)[0], []
+    for rows in m.obstacle.body.forms(around):
         (entries,), _ = table(flat(rows))
         matrices.append([V(entries[i:i + len(rows)]) for i in range(0, len(entries), len(rows))])
-    for k in m.a.group:
-        points = [table([*(x - p), ONE])[0][0] for x in m.a.body.corners(k)]
+    for k in m.agent.group:
+        points = [table([*(x - p), ONE])[0][0] for x in m.agent.body.corners(k)]
         for rows in matrices:
             images = [-through(rows, x) for x in points]
             holds(never_negative([V(x @ y for y in images) for x in points]), f"piece {k} of the agent is in it")
@@ -620,15 +655,14 @@ def never_negative(m):
     adjoint = [cross_product(m[i - 2], m[i - 1]) for i in range(3)]
     return m[0] @ adjoint[0] >= 0 or not all(x > 0 for x in sum(adjoint, zero(3)))
 
-def octants(says, m, proof):
-    read, sides = fields(proof, "octants", "rule nodes"), (m.a, m.b)
-    form(len(m.w) == 3 and all(len(side.body.pieces) == 1 and not side.body.pieces[0][0].cuts for side in sides),
+def octants(m, read):
+    form(len(m.w) == 3 and all(len(side.body.pieces) == 1 and not side.body.pieces[0][0].cuts for side in m.sides),
          "octants are for one convex piece each, in space")
     def member(value, side):
-        if type(value) is list:
-            side.contains(vector(value), 0)
-            return vector(value)
-        return side.mean(0, [[value, 1]])
+        if type(value) is not list:
+            return side.mean(0, [[value, 1]])[0]
+        side.contains(vector(value), 0)
+        return vector(value)
     def node(value, n1, n2, n3):
         if type(value) is list and len(value) == 4:
             m12, m23, m31 = n1 + n2, n2 + n3, n3 + n1
@@ -636,7 +670,7 @@ def octants(says, m, proof):
                 node(sub, *corners)
             return
         t, *points = items(value, 3, 3)
-        t, (a, b) = number(t), map(member, points, sides)
+        t, (a, b) = number(t), map(member, points, m.sides)
         m.at(t)
         for n in (n1, n2, n3):
             most = n @ (b - a - m.w * t) + sum(x * side.reach(n) for x, side in zip((1, t), m.errors) if side)
@@ -644,17 +678,17 @@ def octants(says, m, proof):
     for bits, sub in enumerate(items(read.nodes, 8, 8)):
         node(sub, *(e * (-1 if bits >> i & 1 else 1) for i, e in enumerate(unit(3))))
 
-def depends(says, m, proof):
-    read = fields(proof, "errors", "rule collides passes")
-    for name, rules in (("collides", "in"), ("passes", "out")):
+def depends(m, read):
+    for name, says in (("collides", "in"), ("passes", "out")):
         one = fields(getattr(read, name), name, "proof", "position velocity")
         changes = [one.position or m.w * 0, one.velocity or m.w * 0]
         for change, side in zip(changes, m.errors):
             holds(side or not any(change), f"{name}: an error is in its set")
             if side:
                 side.contains(change, 0)
-        a, b = replace(m.a, v=m.a.v + changes[1]), replace(m.b, body=m.b.body.moved(changes[0]))
-        prove(rules, replace(m, a=a, b=b, errors=(None, None)), one.proof)
+        agent = replace(m.agent, v=m.agent.v + changes[1])
+        obstacle = replace(m.obstacle, body=m.obstacle.body.moved(changes[0]))
+        prove(replace(m, says=says, agent=agent, obstacle=obstacle, errors=(None, None)), one.proof)
 
 # Runs: positions and quaternions are forms.
 
@@ -692,31 +726,30 @@ def run(claim, proof, reader):
           "from < to, and tracks have all of it")
     pairs = [tuple(index(k, len(bodies), "a body") for k in pair) for pair in (read.pairs if apart else [read.pair])]
     form(all(i < j for i, j in pairs) and len(set(pairs)) == len(pairs), "pairs are [i, j] with i < j, none twice")
+    holds(not apart or type(proof) is dict and proof.get("rule") == "pairs", "pairs is the rule for 'apart'")
     proofs = fields(proof, "the proof", "rule pairs").pairs if apart else {f"{i} {j}": proof for i, j in pairs}
-    holds(not apart or proof["rule"] == "pairs", "pairs is the rule for 'apart'")
     form(type(proofs) is dict and set(proofs) == {f"{i} {j}" for i, j in pairs}, "a proof for each pair, no other")
     for i, j in pairs:
         sides = (Side(who, bodies[k], range(len(bodies[k].pieces)), track=read.tracks[k])
                  for who, k in (("agent", i), ("obstacle", j)))
-        prove(says, Motion(*sides, start, end, getattr(read, "by", ZERO)), proofs[f"{i} {j}"])
+        prove(Motion(says, *sides, start, end, getattr(read, "by", ZERO)), proofs[f"{i} {j}"])
     return says, read
 
-def near(says, m, proof):
+def near(m, read):
     """A point of each at a time, and its depth: the ball of that radius is in its piece. Points are given as they are
     then, or as means of corners."""
-    read = fields(proof, "point", "rule time", f"{WHERE} point agent_point obstacle_point agent_depth obstacle_depth")
     m.at(read.time)
     room, way = m.by, zero(3)
-    for side, sign in ((m.a, -1), (m.b, 1)):
+    for side, sign in zip(m.sides, (-1, 1)):
         own, weights, depth = (getattr(read, f"{side.who}_{name}") for name in ("point", "weights", "depth"))
         k, own, skin = side.named(read), own or read.point, side.body.pieces[side.named(read)][0]
         form(own or weights, f"{side.who}: a point or weights are missing")
-        form(not depth or skin.box or skin.shape and not skin.cuts, f"{side.who}_depth: of ellipsoids, balls, boxes")
+        form(not depth or not skin.cuts and not weights, f"{side.who}_depth: of ellipsoids, balls, boxes")
         place, q = (V(a.start() for a in forms) for forms in placed(side.track, read.time, read.time, m.t0))
         q = q or V((ONE, *zero(3)))
         holds(q @ q > 0, f"{side.who}: q.q > 0")
-        x = unturned(q, own - place)[0] * (1 / (q @ q)) if own else side.mean(k, weights)
-        side.contains(x, k, False, weights)
+        x = unturned(q, own - place)[0] * (1 / (q @ q)) if own else side.mean(k, weights)[0]
+        side.contains(x, k, weights)
         for away in unit(3) if depth else ():  # the ball is within the octahedron of x +- 2 depth e_i
             side.contains(x + away * (2 * depth), k)
             side.contains(x - away * (2 * depth), k)
@@ -724,8 +757,7 @@ def near(says, m, proof):
         room += (depth or 0) - side.track.radius
     holds(room >= 0 and way @ way <= room ** 2, f"{say(way)} is no longer than {say(room)}")
 
-def pieces(says, m, proof):
-    read = fields(proof, "pieces", "rule times planes")
+def pieces(m, read):
     holds(read.times[0] == m.t0 and read.times[-1] == m.t1, "pieces from the start to the end")
     form(len(read.planes) == len(read.times) - 1, "a plane for each piece")
     for start, end, (n, length, *rest) in zip(read.times, read.times[1:], read.planes):
@@ -733,35 +765,43 @@ def pieces(says, m, proof):
         n, length, when = vector(n, 3), positive(length), f" from {say(start)} to {say(end)}"
         form(len(rest) != 3, "a plane is [n, length, l_A, l_B], and, if wanted, the multipliers of both")
         holds(length ** 2 >= n @ n, f"length >= |n|{when}")
-        gap = Form([-length * (m.by + m.a.track.radius + m.b.track.radius)])
-        for side, n, limit, multipliers in zip((m.a, m.b), (n, -n), rest, rest[2:] or ([], [])):
+        gap = Form([-length * (m.by + sum(side.track.radius for side in m.sides))])
+        for side, n, limit, multipliers in zip(m.sides, (n, -n), rest, rest[2:] or ([], [])):
             place, q = placed(side.track, start, end, start)
             limit = bernstein([number(x) for x in items(limit, 1, 4)])
             side.at_most(n, limit, items(multipliers, 0) or None, q, when)
             gap = gap - n @ place - limit
         holds(gap.positive(), f"the gap is positive{when}")
 
-RULES = {"out": {"plane": plane, "groups": groups, "cover": cover, "times": times, "forms": forms, "halves": halves},
-         "in": {"point": point, "cross": cross}, "on": {"touch": touch, "groups": groups},
-         "inside": {"vertices": vertices, "groups": groups}, "in for all": {"octants": octants},
-         "depends": {"errors": depends}, "apart": {"pieces": pieces, "groups": groups, "cover": cover},
-         "near": {"point": near}, "meet": {"point": near}}
+WHERE = "agent_piece obstacle_piece agent_weights obstacle_weights"
+LEVELS = "agent_at_most", "obstacle_at_least", "position_error_at_most", "velocity_error_at_most"
+RULES = {(claim, rule): (check, needed, allowed) for claims, rule, check, needed, allowed in (
+    ("out on inside apart", "groups", groups, "of runs proofs", ""),
+    ("out apart", "cover", cover, "of boxes runs proof", ""),
+    ("out", "plane", plane, "", f"n across_w {' '.join(LEVELS)} agent_multipliers obstacle_multipliers"),
+    ("out", "times", times, "cuts proofs", ""), ("out", "forms", forms, "agent obstacle", "products"),
+    ("out", "halves", halves, "normal at below above", ""), ("on", "touch", touch, "n time point", WHERE),
+    ("in", "point", point, "time point inside", WHERE),
+    ("in", "cross", cross, "time pairs", "agent_piece obstacle_piece"),
+    ("in_for_all", "octants", octants, "nodes", ""), ("depends", "errors", depends, "collides passes", ""),
+    ("inside", "vertices", vertices, "", "obstacle_piece"), ("apart", "pieces", pieces, "times planes", ""),
+    ("near meet", "point", near, "time", f"{WHERE} point agent_point obstacle_point agent_depth obstacle_depth"),
+    ) for claim in claims.split()}
 READERS = {  # of fields, by name; the others are read where they are used
     **dict.fromkeys("format says rule kind name sha256 of inside tree".split(), text),
-    **dict.fromkeys("level time at from to agent_at_most obstacle_at_least position_error_at_most "
-                    "velocity_error_at_most".split(), number),
-    **dict.fromkeys("by radius ball cell agent_depth obstacle_depth".split(), positive),
-    **dict.fromkeys("center velocity low high n normal point position box agent_point obstacle_point".split(),
-                    vector),
+    **dict.fromkeys(("level", "time", "at", "from", "to", *LEVELS), number),
+    **dict.fromkeys("by radius margin ball cell agent_depth obstacle_depth".split(), positive),
+    **dict.fromkeys("center velocity low high n normal point position box agent_point obstacle_point".split(), vector),
     **dict.fromkeys("cuts agent_multipliers obstacle_multipliers".split(), several(number)),
+    **dict.fromkeys("agent_weights obstacle_weights".split(), several(several(least=2, most=3))),
     **dict.fromkeys("proofs pieces bodies".split(), several()), "tracks": several(track), "times": several(number, 2),
-    **dict.fromkeys("runs agent_weights obstacle_weights".split(), several(several(most=2, least=2))),
     "pairs": lambda value: value if type(value) is dict else several(several(least=2, most=3))(value),
     "factor": matrix, "matrix": symmetric, "shape": symmetric, "points": several(vector), "horizon": horizon,
     "matrices": several(lambda value: symmetric(value, 4)), "products": several(several(least=3, most=3), 0),
     "triangles": several(several(least=3, most=3)), "boxes": several(several(vector, 2, 2)),
     "delimiters": several(lambda value: fields(value, "a delimiter", "matrix level")),
-    "position_error": errors, "velocity_error": errors,
+    "parts": several(lambda value: fields(value, "a part", "center", "factor shape")),
+    "position_error": errors, "velocity_error": errors, "runs": several(several(least=2, most=2)),
     "pair": several(least=2, most=2), "across_w": several(least=3, most=3), "planes": several(several(least=4, most=6)),
     "positions": several(several(vector, 1, 16)), "turns": several(several(lambda q: vector(q, 4, 4), 1, 16))}
 
@@ -790,7 +830,7 @@ def check(document, reader):
     form(read.format == "vericone-certificate" and type(read.version) is int and read.version == 1,
          "the format must be vericone-certificate, version 1")
     says = read.claim.get("says") if type(read.claim) is dict else None
-    form(type(says) is str and says in SAYS and " " not in says, f"`says` must be one of {', '.join(SAYS)}")
+    form(type(says) is str and says in SAYS and says != "in_for_all", f"`says` must be one of {', '.join(SAYS)}")
     proved, claim = (run if says in ("apart", "near", "meet") else verdict)(read.claim, read.proof, reader)
     form(type(getattr(claim, "id", None)) in (str, int, float, type(None)), "id must be a text or a number")
     unsure = getattr(claim, "position_error", None) or getattr(claim, "velocity_error", None)

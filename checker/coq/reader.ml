@@ -112,7 +112,7 @@ let rec body folder ~moves ~inner value : (C.q C.body * (string * t) list) =
   let kind = kind_of "a body" value in
   let needed, allowed = match List.assoc_opt kind body_fields with
     | Some known -> known
-    | None when List.mem kind ["octree"; "quadrics"] -> unknown ("the kind " ^ kind)
+    | None when List.mem kind ["octree"; "quadrics"; "convex"] -> unknown ("the kind " ^ kind)
     | None -> malformed ("an unknown kind of body: " ^ kind) in
   let read = fields ("the " ^ kind) (("kind" :: needed) @ (if moves then ["velocity"] else [])) ("center" :: allowed) value in
   let p = match optional "center" read with Some c -> vector c | None -> origin in
@@ -143,7 +143,8 @@ let rec body folder ~moves ~inner value : (C.q C.body * (string * t) list) =
     | "union" ->
       form (not inner) "a union in a union";
       let part value =
-        if kind_of "a piece" value = "quadrics" then unknown "the kind quadrics";
+        let kind = kind_of "a piece" value in
+        if List.mem kind ["quadrics"; "convex"] then unknown ("the kind " ^ kind);
         form (List.mem (kind_of "a piece" value) ["ellipsoid"; "ball"; "hull"; "box"; "delimited"]) "a piece of a union of another kind";
         List.map (moved p) (fst (body folder ~moves:false ~inner:true value)) in
       List.concat_map part (items (field "pieces" read))
@@ -250,7 +251,8 @@ let rec proof sides value : C.proof =
     let read = read ["time"; "point"; "inside"] members in
     let a, b = where sides read in
     let in_agent = match text "inside" read with
-      | "agent" -> true | "obstacle" -> false | _ -> malformed "inside must be agent or obstacle" in
+      | "agent" -> true | "obstacle" -> false | "both" -> unknown "a point inside of both"
+      | _ -> malformed "inside must be agent, obstacle or both" in
     C.Point (rational (number (field "time" read)), vector_of (field "point" read), in_agent, a, b)
   | "cross" ->
     let read = read ["time"; "pairs"] ["agent_piece"; "obstacle_piece"] in

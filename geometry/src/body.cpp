@@ -110,9 +110,9 @@ Ellipsoid containing_points(std::vector<Vector3d> points) {
   } catch (const InputError&) {  // flat, or a single point
   }
   const double size = (high - low).maxCoeff();
+  constexpr double kLeast = 1e-50;  // m, of a point at the origin: its sixth power is a number
   const double beside =
-      std::max({1e-6 * size, 1e-9 * low.cwiseAbs().maxCoeff(), 1e-9 * high.cwiseAbs().maxCoeff(),
-                std::numeric_limits<double>::min() * 1e30});
+      std::max({1e-6 * size, 1e-9 * low.cwiseAbs().maxCoeff(), 1e-9 * high.cwiseAbs().maxCoeff(), kLeast});
   const std::size_t count = points.size();
   for (std::size_t i = 0; i < count; ++i)
     for (int k = 0; k < 3; ++k)

@@ -14,8 +14,6 @@
 #include <numbers>
 #include <utility>
 
-#include "bands/parts.h"
-
 namespace vericone::guidance::courses {
 namespace {
 
@@ -26,7 +24,7 @@ constexpr double kNever = std::numeric_limits<double>::infinity();
 constexpr double kRelative = 1e-3;  // of a distance
 constexpr int kMostSupports = 48;
 
-/// Points, a box or an ellipsoid, rounded by a radius.
+/// Points, a box, an ellipsoid, or a body of flat, round and straight parts; rounded by a radius.
 class Piece {
  public:
   static Piece points(const Vector3d* points, std::size_t count, double radius = 0) {
@@ -46,11 +44,18 @@ class Piece {
     piece.ellipsoid_ = &ellipsoid;
     return piece;
   }
+  static Piece convex(const Convex& convex) {
+    Piece piece;
+    piece.convex_ = &convex;
+    piece.radius_ = convex.margin();
+    return piece;
+  }
 
   /// A direction from x towards the piece, of what may be nearest.
   Vector3d towards(const Vector3d& x) const {
     if (box_) return x.cwiseMax(box_->low).cwiseMin(box_->high) - x;
     if (ellipsoid_) return ellipsoid_->shape().inverse() * (ellipsoid_->center() - x);
+    if (convex_) return convex_->middle() - x;
     Vector3d sum = Vector3d::Zero();
     for (std::size_t i = 0; i < count_; ++i) sum += points_[i];
     return sum / double(count_) - x;
@@ -58,11 +63,18 @@ class Piece {
   /// The point with the least n.x, without the rounding.
   Vector3d lowest(const Vector3d& n) const {
     if (box_) return (n.array() > 0).select(box_->low, box_->high);
-    if (ellipsoid_) {
-      const Vector3d u = ellipsoid_->factor().transpose() * n;
-      const double length = u.norm();
-      if (!(length > 0)) return ellipsoid_->center();
-      return ellipsoid_->center() - ellipsoid_->factor() * (u / length);
+    if (ellipsoid_) return lowest(ellipsoid_->center(), ellipsoid_->factor(), n);
+    if (convex_) {
+      Vector3d best = Vector3d::Zero();
+      double least = kNever;
+      for (const Convex::Piece& piece : convex_->pieces()) {
+        const Vector3d x = lowest(piece.center, piece.factor, n);
+        if (const double here = n.dot(x); here < least) {
+          least = here;
+          best = x;
+        }
+      }
+      return best;
     }
     std::size_t best = 0;
     double least = n.dot(points_[0]);
@@ -78,9 +90,17 @@ class Piece {
   double surely_lowest(const Vector3d& n, const Vector3d& from) const;
 
  private:
+  static Vector3d lowest(const Vector3d& center, const Matrix3d& factor, const Vector3d& n) {
+    const Vector3d u = factor.transpose() * n;
+    const double length = u.norm();
+    if (!(length > 0)) return center;
+    return center - factor * (u / length);
+  }
+
   const Vector3d* points_ = nullptr;
   const Box* box_ = nullptr;
   const Ellipsoid* ellipsoid_ = nullptr;
+  const Convex* convex_ = nullptr;
   std::size_t count_ = 0;
   double radius_ = 0;
 };
@@ -129,6 +149,11 @@ double Piece::surely_lowest(const Vector3d& n, const Vector3d& from) const {
   if (ellipsoid_) return surely_along(n, ellipsoid_->center(), from) - surely_radius(ellipsoid_->factor(), n);
   double least = kNever;
   for (std::size_t i = 0; i < count_; ++i) least = std::min(least, surely_along(n, points_[i], from));
+  if (convex_)
+    for (const Convex::Piece& piece : convex_->pieces()) {
+      const double along = surely_along(n, piece.center, from);
+      least = std::min(least, piece.rank == 0 ? along : along - surely_radius(piece.factor, n));
+    }
   return least - radius_ * n.norm() * (1 + kRoundings);
 }
 
@@ -308,7 +333,10 @@ class Nearest {
   }
 
   /// Nothing can change the answer.
-  bool done() const { return met_ ? wanted_.meeting == Meeting::whether : near_.distance <= wanted_.stop; }
+  bool done() const {
+    if (met_) return wanted_.meeting == Meeting::whether || near_.part == 0;
+    return near_.distance <= wanted_.stop;
+  }
 
   void look(const Piece& piece) {
     Vector3d& normal = wanted_.normal ? *wanted_.normal : normal_;
@@ -397,10 +425,11 @@ Piece piece_of(const Assembly& body, std::uint32_t slot) {
     case PieceKind::box:
       return Piece::box(pieces.boxes[slot]);
     case PieceKind::hull:
-    case PieceKind::convex:  // refused before
+      return Piece::points(pieces.hulls[slot].points().data(), pieces.hulls[slot].size());
+    case PieceKind::convex:
       break;
   }
-  return Piece::points(pieces.hulls[slot].points().data(), pieces.hulls[slot].size());
+  return Piece::convex(pieces.convexes[slot]);
 }
 
 void descend(const Assembly& body, Nearest& nearest) {
@@ -518,13 +547,14 @@ Near near(const Sweep& sweep, const Ellipsoid& body, const Wanted& wanted) {
 }
 
 Near near(const Sweep& sweep, const Placed& body, Wanted wanted) {
-  banding::refuse_round_parts(body.body);
   wanted.normal = nullptr;  // of many pieces each has its own
   Nearest nearest(way_of(sweep, body.pose), wanted);
   if (const Assembly* assembly = body.body.assembly()) {
     descend(*assembly, nearest);
   } else if (const HullBody* hull = body.body.hull()) {
     nearest.look(Piece::points(hull->points().data(), hull->size()));
+  } else if (const Convex* convex = body.body.convex()) {
+    nearest.look(Piece::convex(*convex));
   } else if (const CombinedEllipsoid* quadric = body.body.quadric()) {
     nearest.look(Piece::ellipsoid(quadric->ellipsoid()));
   } else {
@@ -541,7 +571,6 @@ double surely_apart(const Sweep& sweep, const Ellipsoid& body, double enough, Ve
 }
 
 double surely_apart(const Sweep& sweep, const Placed& body, double enough) {
-  banding::refuse_round_parts(body.body);
   // In the body's frame all is rounded once more, and a rotation is one to 1e-12.
   const double rounded = body.pose.rotation.isIdentity(0) ? 1e-14 : 4e-12;
   const double size = body.pose.position.norm() + sweep.agent.center().norm() + sweep.along.norm() +
@@ -552,6 +581,8 @@ double surely_apart(const Sweep& sweep, const Placed& body, double enough) {
     descend(*assembly, kept);
   } else if (const HullBody* hull = body.body.hull()) {
     kept.look(Piece::points(hull->points().data(), hull->size()), normal);
+  } else if (const Convex* convex = body.body.convex()) {
+    kept.look(Piece::convex(*convex), normal);
   } else if (const CombinedEllipsoid* quadric = body.body.quadric()) {
     kept.look(Piece::ellipsoid(quadric->ellipsoid()), normal);
   } else {

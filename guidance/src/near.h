@@ -46,8 +46,8 @@ struct Near {
 
 [[nodiscard]] Near near(const Sweep& sweep, const Ellipsoid& body, const Wanted& wanted);
 
-/// Meshes, clouds, maps, hulls and unions as they are; of combined quadrics what their delimiters
-/// cut away counts too. No allocation.
+/// Meshes, clouds, maps, hulls, bodies of flat, round and straight parts and unions as they are; of combined
+/// quadrics what their delimiters cut away counts too. No allocation.
 [[nodiscard]] Near near(const Sweep& sweep, const Placed& body, Wanted wanted);
 
 /// Metres that the sweep surely keeps from the body, at most `enough`, negative where it may meet it: the gap

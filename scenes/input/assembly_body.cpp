@@ -252,7 +252,7 @@ BodyKind octree() {
                      .row("region", of(&OctreeFields::region),
                           Value<Box>{read_region,
                                      Json{{"type", "array"},
-                                          {"items", {{"$ref", "body.schema.json#/$defs/vector3"}}},
+                                          {"items", {{"$ref", "body.schema.json#/$defs/quantities3"}}},
                                           {"minItems", 2},
                                           {"maxItems", 2},
                                           {"title", "two [x, y, z]"},

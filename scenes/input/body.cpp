@@ -4,9 +4,11 @@
 #include "input/assembly_body.h"
 #include "input/body_kind.h"
 #include "input/file_body.h"
+#include "input/motions.h"
 #include "input/planar_body.h"
 #include "json/json_value.h"
 #include "solids/convex_body.h"
+#include "units/geographic.h"
 
 namespace vericone::input {
 namespace {
@@ -169,13 +171,17 @@ const Fields<Scene>& engagement_fields() {
           .special("agent_velocity", point<3>("m/s").schema, {}, "`[x, y, z]`, in the plane `[x, y]`.",
                    absent("zero"))
           .special("obstacle_velocity", point<3>("m/s").schema, {}, "The same of the obstacle.",
-                   absent("zero"));
+                   absent("zero"))
+          .special("origin", origin_schema(), {}, kOriginSentence, absent("nowhere"));
   return fields;
 }
 
 Scene read_engagement(const Json& value, Velocities velocities, const std::vector<std::string_view>& also,
                       const std::filesystem::path& folder) {
   if (!value.is_object()) throw InputError("engagement", quoted(value), "a mapping with agent and obstacle");
+  refuse_motions(value);
+  Json kept;
+  if (value.contains("origin")) return read_engagement(localized(value, kept), velocities, also, folder);
   std::vector<std::string_view> known = engagement_fields().names();
   known.insert(known.end(), also.begin(), also.end());
   require_known(value, "", std::span<const std::string_view>(known));

@@ -24,6 +24,9 @@ struct Value {
   std::function<Json(const T&)> write;                                // as a default; none: schemas have none
 };
 
+/// A schema with its unit, "m²"; text too where that unit may be written out (units.h).
+Json with_unit(Json schema, const std::string& unit);
+
 /// A finite number times `scale`. Units as in schemas, "m²".
 Value<double> number(const char* unit = "", double scale = 1);
 Value<double> positive(const char* unit = "", double scale = 1);
@@ -52,8 +55,8 @@ Value<T> checked(const Value<T>& value, const char* requirement, bool (*holds)(c
 /// The same, which the schema has otherwise; its unit and default stay.
 template <typename T>
 Value<T> shown_as(Value<T> value, Json schema) {
-  if (value.schema.contains("unit")) schema["unit"] = value.schema["unit"];
-  value.schema = std::move(schema);
+  const auto unit = value.schema.find("unit");
+  value.schema = unit == value.schema.end() ? std::move(schema) : with_unit(std::move(schema), *unit);
   return value;
 }
 

@@ -17,11 +17,6 @@ double plain(double x) {
   return std::strtod(text, nullptr);
 }
 
-Json with_unit(Json schema, const char* unit) {
-  if (*unit) schema["unit"] = unit;
-  return schema;
-}
-
 /// A number for which `holds`, refused as "REQUIREMENT UNIT".
 Value<double> bounded(Json schema, const char* requirement, bool (*holds)(double), const char* unit,
                       double scale) {
@@ -39,6 +34,32 @@ Value<double> bounded(Json schema, const char* requirement, bool (*holds)(double
 }
 
 }  // namespace
+
+Json with_unit(Json schema, const std::string& unit) {
+  if (unit.empty()) return schema;
+  schema["unit"] = unit;
+  if (units_for(unit).empty()) return schema;
+  if (const auto type = schema.find("type"); type != schema.end() && *type == "number")
+    *type = {"number", "string"};
+  const auto named = schema.find("$ref");
+  if (named == schema.end()) return schema;
+  std::string to = named->get<std::string>();
+  for (const auto& [numbers, quantities] :
+       {std::pair("/positive", "/positive_quantity"), std::pair("/vector", "/quantities")})
+    if (const std::size_t at = to.rfind(numbers); at != std::string::npos && to.find('_', at) == to.npos)
+      to.replace(at, std::string(numbers).size(), quantities);
+  *named = to;
+  return schema;
+}
+
+void refuse_list(const Json& value, const std::string& path, int count, const char* unit) {
+  const bool geographic = value.is_object() && value.contains("latitude");
+  throw InputError(path, quoted(value),
+                   "a list of " + std::to_string(count) + " numbers" + unit +
+                       (geographic ? "; a place by latitude and longitude beside an origin of the file, with "
+                                     "altitude in space"
+                                   : ""));
+}
 
 std::string quoted(const Json& value) {
   std::string text = value.dump(-1, ' ', false, Json::error_handler_t::replace);

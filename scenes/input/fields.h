@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "json/json_value.h"
+#include "units/units.h"
 
 namespace vericone::input {
 
@@ -32,15 +33,17 @@ inline bool is_finite_number(const Json& value) {
   return value.is_number() && std::isfinite(value.get<double>());
 }
 
+/// `unit`: as refusals have it, " (metres)"; text with a unit of its dimension is converted (units.h).
 inline double read_number(const Json& value, const std::string& path, const char* unit) {
-  if (!is_finite_number(value)) throw InputError(path, quoted(value), std::string("a finite number") + unit);
-  return value.get<double>();
+  return is_finite_number(value) ? value.get<double>() : read_quantity(value, path, unit);
 }
+
+/// "a list of COUNT numbers", said of what is none, and how a place by latitude and longitude is one.
+[[noreturn]] void refuse_list(const Json& value, const std::string& path, int count, const char* unit);
 
 template <int N>
 Eigen::Matrix<double, N, 1> read_vector(const Json& value, const std::string& path, const char* unit) {
-  if (!value.is_array() || value.size() != N)
-    throw InputError(path, quoted(value), "a list of " + std::to_string(N) + " numbers" + unit);
+  if (!value.is_array() || value.size() != N) refuse_list(value, path, N, unit);
   Eigen::Matrix<double, N, 1> v;
   for (int i = 0; i < N; ++i)  // a path is written for an error only
     v(i) = is_finite_number(value[i]) ? value[i].get<double>() : read_number(value[i], at(path, i), unit);

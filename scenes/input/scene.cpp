@@ -20,6 +20,7 @@
 #include "input/text_source.h"
 #include "json/json_value.h"
 #include "json/plain_text.h"
+#include "units/geographic.h"
 
 namespace vericone::input {
 namespace {
@@ -250,8 +251,10 @@ const Fields<scenes::Scene>& scene_file_fields() {
   return fields;
 }
 
-Scene scene_of(const Json& fields, const std::string& path) {
-  require_kind(fields, FileKind::scene, path);
+Scene scene_of(const Json& given, const std::string& path) {
+  require_kind(given, FileKind::scene, path);
+  Json kept;
+  const Json& fields = localized(given, kept);
   const std::filesystem::path folder = std::filesystem::path(path).parent_path();
   Scene scene = read_engagement(fields, Velocities::optional, scene_file_fields().names(), folder);
   scene.agent.fields = remembered_fields(fields["agent"], "agent", folder);

@@ -3,9 +3,11 @@
 
 #include "input/body_kind.h"
 #include "input/file_body.h"
+#include "input/motions.h"
 #include "input/planar_body.h"
 #include "input/scene.h"
 #include "solids/convex_body.h"
+#include "units/geographic.h"
 
 namespace vericone::input {
 namespace {
@@ -28,20 +30,27 @@ Json defined(const char* name) { return {{"$ref", std::string("#/$defs/") + name
 
 /// What the values of fields are, by name.
 Json values() {
-  const Json number{{"type", "number"}};
+  const Json number{{"type", "number"}}, quantity = with_unit(number, "m");
   const Json positive{{"title", "positive number"}, {"type", "number"}, {"exclusiveMinimum", 0}};
-  return {{"positive", positive},
-          {"vector2", list_of(2, number, "[x, y]")},
-          {"vector3", list_of(3, number, "[x, y, z]")},
-          {"vector4", list_of(4, number, "four numbers")},
-          {"matrix3", list_of(3, defined("vector3"), "3x3 matrix")},
-          {"point", any_of("[x, y] or [x, y, z]", {defined("vector2"), defined("vector3")},
-                           "Two numbers in the plane, three in space.")},
-          {"rotation", any_of("quaternion, matrix or angle", {defined("vector4"), defined("matrix3"), number},
-                              "Unit quaternion [w, x, y, z] or 3x3 matrix; in the plane an angle.")},
-          {"axes",
-           any_of("[a, b] or [a, b, c]", {list_of(2, positive, "[a, b]"), list_of(3, positive, "[a, b, c]")},
-                  "Half-lengths, m, along the columns of rotation.")}};
+  const Json length{{"title", "positive number"}, {"type", quantity["type"]}, {"exclusiveMinimum", 0}};
+  const Json items{{"type", quantity["type"]}};
+  return {
+      {"positive", positive},
+      {"positive_quantity", length},
+      {"vector2", list_of(2, number, "[x, y]")},
+      {"vector3", list_of(3, number, "[x, y, z]")},
+      {"quantities2", list_of(2, items, "[x, y]")},
+      {"quantities3", list_of(3, items, "[x, y, z]")},
+      {"vector4", list_of(4, number, "four numbers")},
+      {"matrix3", list_of(3, defined("vector3"), "3x3 matrix")},
+      {"point",
+       any_of("[x, y] or [x, y, z]", {defined("quantities2"), defined("quantities3"), defined("place")},
+              "Two numbers in the plane, three in space; or a place on the Earth.")},
+      {"place", place_schema()},
+      {"rotation", any_of("quaternion, matrix or angle", {defined("vector4"), defined("matrix3"), items},
+                          "Unit quaternion [w, x, y, z] or 3x3 matrix; in the plane an angle.")},
+      {"axes", any_of("[a, b] or [a, b, c]", {list_of(2, length, "[a, b]"), list_of(3, length, "[a, b, c]")},
+                      "Half-lengths, m, along the columns of rotation.")}};
 }
 
 std::string lines_of(const Json& node, std::size_t indent, bool named) {
@@ -82,6 +91,7 @@ Json body_schema() {
   fields["velocity"] = point<3>("m/s").schema;
   fields["velocity"]["description"] =
       "In scenes and cases another way to write `agent_velocity` or `obstacle_velocity`.";
+  fields.update(motion_schema());
   Json names = values();
   names["hyperboloid"] = hyperboloid_schema();
   names["hyperbola"] = hyperbola_schema();

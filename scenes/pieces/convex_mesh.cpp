@@ -13,8 +13,9 @@ std::vector<std::array<Eigen::Vector3d, 3>> convex_mesh(const Convex& body, cons
   // Rings of directions beside the poles and the equator, where bodies about z have their edges.
   const auto farthest = [&](double polar, int j) {
     const double azimuth = 2 * pi * (j + 0.5) / around;
-    return pose.to_world(body.support_point(
-        {std::sin(polar) * std::cos(azimuth), std::sin(polar) * std::sin(azimuth), std::cos(polar)}));
+    const double across = polar < pi ? std::sin(polar) : 0;  // straight down, and not to a rim
+    return pose.to_world(
+        body.support_point({across * std::cos(azimuth), across * std::sin(azimuth), std::cos(polar)}));
   };
   std::vector<std::vector<Eigen::Vector3d>> grid(std::size_t(rings) + 2);
   for (int i = 0; i <= rings + 1; ++i) {

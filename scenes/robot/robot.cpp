@@ -125,9 +125,9 @@ Eigen::Vector3d unit_axis(const Eigen::Vector3d& axis, int line) {
   return axis / length;
 }
 
-Robot read_robot(const Element& root, Shown shown) {
+Robot read_robot(const Element& root, Shown shown, const Include& include) {
   if (root.name == "robot") return read_urdf(root, shown);
-  if (root.name == "sdf") return read_sdf(root, shown);
+  if (root.name == "sdf") return read_sdf(root, shown, include);
   refuse(root.line, "<" + root.name.substr(0, 40) + ">", "<robot> (URDF) or <sdf>");
 }
 

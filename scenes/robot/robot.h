@@ -6,6 +6,7 @@
 #include <vericone/geometry/convex.h>
 #include <vericone/geometry/pose.h>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -20,6 +21,8 @@ struct MeshFile {
   std::string name;  // as written: relative, "file://...", "package://NAME/...", "model://NAME/..."
   Eigen::Vector3d scale = Eigen::Vector3d::Ones();
   int line = 0;
+  /// What it is relative to: the folder of an included file; empty: of the robot's own.
+  std::filesystem::path folder = {};
 };
 
 /// One of a link's, where it stands in the link's frame: a convex body or a mesh.
@@ -63,12 +66,19 @@ struct Robot {
 
 enum class Shown { collision, visual };
 
+/// A file that SDF includes, by its URI in that line.
+struct IncludedFile {
+  Element root;
+  std::filesystem::path folder;
+};
+using Include = std::function<IncludedFile(const std::string& uri, int line)>;
+
 // Throw InputErrors of refuse(), or naming "joints" or "links".
 
 Robot read_urdf(const Element& root, Shown shown);
-Robot read_sdf(const Element& root, Shown shown);
+Robot read_sdf(const Element& root, Shown shown, const Include& include);
 /// Whichever the outermost element says.
-Robot read_robot(const Element& root, Shown shown);
+Robot read_robot(const Element& root, Shown shown, const Include& include);
 
 /// Where each link stands with these values of the joints, rad and m; 0 of those left out. A root link stands
 /// where its file says, or at the origin. Throws InputError naming "joints" or "joints.NAME": unknown, beyond

@@ -44,7 +44,8 @@ class RobotPieces {
       : fields_(fields), folder_(folder), file_(folder / fields.file) {}
 
   Assembly read(std::size_t& links) {
-    const Robot read = robot::read_robot(robot::read_xml(file_), fields_.shown);
+    const auto include = [this](const std::string& uri, int line) { return included(uri, line); };
+    const Robot read = robot::read_robot(robot::read_xml(file_), fields_.shown, include);
     const std::vector<Pose> places = robot::link_places(read, fields_.joints);
     for (const std::string& name : fields_.links)
       if (std::none_of(read.links.begin(), read.links.end(),
@@ -70,20 +71,24 @@ class RobotPieces {
       convexes_.push_back(in_world(*one.body, pose));
       return;
     }
+    // What is mirrored is gone round the other way, so that it still looks outwards.
+    const bool mirrors = one.mesh.scale.prod() < 0;
     for (const auto& triangle : mesh(one.mesh)) {
       auto& corners = triangles_.emplace_back();
       for (std::size_t k = 0; k < 3; ++k)
-        corners[k] = pose.to_world(triangle[k].cwiseProduct(one.mesh.scale));
+        corners[mirrors ? 2 - k : k] = pose.to_world(triangle[k].cwiseProduct(one.mesh.scale));
     }
     if (triangles_.size() > kMostTriangles)
       robot::refuse(one.mesh.line, "more triangles", "at most " + std::to_string(kMostTriangles) + " in all");
   }
 
   const Mesh& mesh(const robot::MeshFile& named) {
-    const auto [found, is_new] = meshes_.try_emplace(named.name);
+    const std::filesystem::path path =
+        path_of(named.name, named.line, named.folder.empty() ? file_.parent_path() : named.folder);
+    const auto [found, is_new] = meshes_.try_emplace(path);
     if (!is_new) return found->second;
     try {
-      const files::PointFile read = files::read_points(path_of(named));
+      const files::PointFile read = files::read_points(path);
       if (read.faces.empty()) robot::refuse(named.line, named.name + ", a cloud", "a mesh");
       for (const auto& triangle : files::triangles_of(read.points, read.faces))
         found->second.push_back(
@@ -95,23 +100,37 @@ class RobotPieces {
     return found->second;
   }
 
-  std::filesystem::path path_of(const robot::MeshFile& named) const {
-    const std::string& name = named.name;
+  /// Beside the folder, or in a package of `packages`.
+  std::filesystem::path path_of(const std::string& name, int line,
+                                const std::filesystem::path& beside) const {
     const std::size_t at = name.find("://");
-    if (at == std::string::npos) return file_.parent_path() / name;
+    if (at == std::string::npos) return beside / name;
     const std::string scheme = name.substr(0, at), rest = name.substr(at + 3);
     if (scheme == "file") return rest;
-    const std::size_t slash = rest.find('/');
+    const std::size_t slash = std::min(rest.find('/'), rest.size());
     const auto package = fields_.packages.find(rest.substr(0, slash));
-    if ((scheme != "package" && scheme != "model") || slash == std::string::npos)
-      robot::refuse(named.line, name, "a file's name, or package://NAME/..., model://NAME/... or file://...");
+    if ((scheme != "package" && scheme != "model") || slash == 0)
+      robot::refuse(line, name, "a file's name, or package://NAME/..., model://NAME/... or file://...");
     if (package == fields_.packages.end())
-      robot::refuse(named.line, name,
+      robot::refuse(line, name,
                     "of a package whose folder `packages` names: {" + rest.substr(0, slash) + ": FOLDER}");
-    const auto within = std::filesystem::path(rest.substr(slash + 1)).lexically_normal();
-    if (within.is_absolute() || *within.begin() == "..")
-      robot::refuse(named.line, name, "a file within its package");
+    const auto within =
+        std::filesystem::path(rest.substr(std::min(slash + 1, rest.size()))).lexically_normal();
+    if (within.is_absolute() || (!within.empty() && *within.begin() == ".."))
+      robot::refuse(line, name, "a file within its package");
     return folder_ / package->second / within;
+  }
+
+  /// A model's file, or the model.sdf of its folder.
+  robot::IncludedFile included(const std::string& uri, int line) const {
+    std::filesystem::path path = path_of(uri, line, file_.parent_path());
+    if (std::filesystem::is_directory(path)) path /= "model.sdf";
+    try {
+      return {robot::read_xml(path), path.parent_path()};
+    } catch (const InputError& e) {
+      const bool in_file = e.field().starts_with("line ");
+      robot::refuse(line, uri + (in_file ? ", " + e.field() + ": " : ": ") + e.value(), e.requirement());
+    }
   }
 
   /// A surface alone is a mesh; beside convex bodies each triangle is one.
@@ -136,7 +155,7 @@ class RobotPieces {
 
   const RobotFields& fields_;
   std::filesystem::path folder_, file_;
-  std::map<std::string, Mesh> meshes_;
+  std::map<std::filesystem::path, Mesh> meshes_;
   std::vector<Convex> convexes_;
   Mesh triangles_;
 };

@@ -4,8 +4,10 @@
 // radians; cylinders and capsules about z and about their middle, a capsule's length between the centres of
 // its ends.
 #include <vericone/geometry/body.h>
+#include <vericone/geometry/error.h>
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <deque>
 #include <map>
 #include <numbers>
 #include <set>
@@ -125,6 +127,8 @@ Geometry sdf_geometry(const Element& owner) {
     result.mesh = {trimmed(uri.text), Vector3d::Ones(), uri.line};
     if (const Element* scale = shape.child("scale"))
       result.mesh.scale = vector_of<3>(scale->text, scale->line, "scale");
+  } else if (shape.name == "plane") {
+    refuse(shape.line, "<plane>", "a body that ends somewhere: a box of the ground that counts");
   } else {
     refuse(shape.line, "<" + shown_name(shape.name) + ">",
            "box, sphere, cylinder, capsule, cone, ellipsoid or mesh");
@@ -134,8 +138,8 @@ Geometry sdf_geometry(const Element& owner) {
 
 class SdfModel {
  public:
-  SdfModel(const Element& model, Shown shown, Robot& robot, const std::string& prefix)
-      : model_(model), shown_(shown), robot_(robot), prefix_(prefix), place_(pose_of(model.child("pose"))) {}
+  SdfModel(const Element& model, Shown shown, Robot& robot, const std::string& prefix, const Pose& place)
+      : model_(model), shown_(shown), robot_(robot), prefix_(prefix), place_(place) {}
 
   void read() {
     for (const char* other : {"model", "include"})
@@ -213,9 +217,25 @@ class SdfModel {
     robot_.joints.push_back(std::move(joint));
   }
 
+  /// multiplier * (the other's value - reference) + offset.
+  Joint::Mimic mimic_of(const Element& element) const {
+    const std::string* axis = element.attribute("axis");
+    if (axis && *axis != "axis") refuse(element.line, shown_name(*axis), "axis: joints of two are at rest");
+    const auto number = [&](const char* name, double otherwise) {
+      const Element* given = element.child(name);
+      return given ? numbers(given->text, 1, given->line, name).front() : otherwise;
+    };
+    Joint::Mimic mimic;
+    mimic.joint = prefix_ + needed(element, "joint");
+    mimic.line = element.line;
+    mimic.multiplier = number("multiplier", 1);
+    mimic.offset = number("offset", 0) - mimic.multiplier * number("reference", 0);
+    return mimic;
+  }
+
   void add_axis(const Element& axis, const Pose& own, Joint& joint) const {
     joint.axis = Vector3d::UnitZ();  // as SDF says
-    if (axis.child("mimic")) refuse(axis.child("mimic")->line, "<mimic>", "left out: of SDF it is not read");
+    if (const Element* mimic = axis.child("mimic")) joint.mimic = mimic_of(*mimic);
     if (const Element* xyz = axis.child("xyz")) {
       joint.axis = unit_axis(vector_of<3>(xyz->text, xyz->line, "xyz"), xyz->line);
       const std::string* in = xyz->attribute("expressed_in");
@@ -245,29 +265,113 @@ class SdfModel {
   std::map<std::string, std::size_t> numbers_;
 };
 
+/// The models of a file, of its worlds too, and those of files that it includes.
+class SdfModels {
+ public:
+  SdfModels(Shown shown, const Include& include) : shown_(shown), include_(include) {}
+
+  Robot read(const Element& root) {
+    gather(root, nullptr);
+    for (const Element& world : root.children)
+      if (world.name == "world") gather(world, nullptr);
+    if (models_.empty()) refuse(root.line, "no model", "one model or more");
+    Robot robot;
+    std::set<std::string> names;
+    for (const Model& one : models_) {
+      if (!names.insert(one.name).second)
+        refuse(one.line, shown_name(one.name), "a name that no other model has");
+      const std::size_t links = robot.links.size(), joints = robot.joints.size();
+      in_file(one, [&] {
+        SdfModel(*one.model, shown_, robot, models_.size() > 1 ? one.name + "::" : "", one.place).read();
+      });
+      if (!one.file) continue;
+      for (std::size_t i = links; i < robot.links.size(); ++i)
+        for (Geometry& geometry : robot.links[i].geometries) {
+          geometry.mesh.folder = one.file->folder;
+          geometry.mesh.line = one.line;
+        }
+      for (std::size_t i = joints; i < robot.joints.size(); ++i) {
+        robot.joints[i].line = one.line;
+        if (robot.joints[i].mimic) robot.joints[i].mimic->line = one.line;
+      }
+    }
+    return robot;
+  }
+
+ private:
+  struct Model {
+    const Element* model;
+    std::string name;
+    Pose place;
+    int line;                  // of the file itself
+    const IncludedFile* file;  // null: the file itself
+    std::string uri;
+  };
+
+  /// What is wrong in a file that is included is said of the line that includes it.
+  template <typename Read>
+  static void in_file(const Model& one, const Read& read) {
+    try {
+      read();
+    } catch (const InputError& e) {
+      if (!one.file) throw;
+      refuse(one.line, shown_name(one.uri) + ", " + e.field() + ": " + e.value(), e.requirement());
+    }
+  }
+
+  static Pose place_of(const Element& owner) {
+    if (const std::string in = relative_to(owner, "world"); in != "world")
+      refuse(owner.child("pose")->line, "relative_to " + shown_name(in),
+             "left out: models stand in the world");
+    return pose_of(owner.child("pose"));
+  }
+
+  void gather(const Element& owner, const Model* including) {
+    for (const Element& element : owner.children) {
+      if (element.name == "model") {
+        Model model{&element, needed(element, "name"), place_of(element), element.line, nullptr, ""};
+        if (including) {
+          model.line = including->line;
+          model.file = including->file;
+          model.uri = including->uri;
+        }
+        models_.push_back(std::move(model));
+      }
+      if (element.name == "include") {
+        if (including) refuse(element.line, "<include>", "models that stand in the included file itself");
+        add_included(element);
+      }
+    }
+  }
+
+  void add_included(const Element& element) {
+    const Element& uri = needed_child(element, "uri");
+    if (const Element* other = element.child("placement_frame"))
+      refuse(other->line, "<placement_frame>", "left out: the pose is that of the model's own frame");
+    Model one{nullptr, "", Pose(), element.line, nullptr, trimmed(uri.text)};
+    one.file = &files_.emplace_back(include_(one.uri, uri.line));
+    const std::size_t before = models_.size();
+    in_file(one, [&] {
+      const Element& root = one.file->root;
+      if (root.name != "sdf") refuse(root.line, "<" + shown_name(root.name) + ">", "<sdf>");
+      gather(root, &one);
+      if (models_.size() != before + 1)
+        refuse(root.line, std::to_string(models_.size() - before) + " models", "one model");
+    });
+    if (const Element* name = element.child("name")) models_.back().name = trimmed(name->text);
+    if (element.child("pose")) models_.back().place = place_of(element);
+  }
+
+  Shown shown_;
+  const Include& include_;
+  std::deque<IncludedFile> files_;
+  std::vector<Model> models_;
+};
+
 }  // namespace
 
-Robot read_sdf(const Element& root, Shown shown) {
-  std::vector<const Element*> models;
-  const auto gather = [&](const Element& owner) {
-    for (const Element& element : owner.children) {
-      if (element.name == "model") models.push_back(&element);
-      if (element.name == "include")
-        refuse(element.line, "<include>", "models that stand in the file: other files are not read");
-    }
-  };
-  gather(root);
-  for (const Element& world : root.children)
-    if (world.name == "world") gather(world);
-  if (models.empty()) refuse(root.line, "no model", "one model or more");
-  Robot robot;
-  std::set<std::string> names;
-  for (const Element* model : models) {
-    const std::string& name = needed(*model, "name");
-    if (!names.insert(name).second) refuse(model->line, shown_name(name), "a name that no other model has");
-    SdfModel(*model, shown, robot, models.size() > 1 ? name + "::" : "").read();
-  }
-  return robot;
+Robot read_sdf(const Element& root, Shown shown, const Include& include) {
+  return SdfModels(shown, include).read(root);
 }
 
 }  // namespace vericone::robot

@@ -1,34 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-//
-// XML as robots are described in it: elements, attributes and text. Declarations of document types, and with
-// them entities and other files, are refused.
 #pragma once
 
+#include <vericone/internal/files/xml.h>
 #include <filesystem>
-#include <string>
-#include <utility>
-#include <vector>
 
 namespace vericone::robot {
 
-struct Element {
-  std::string name;
-  int line = 0;
-  std::vector<std::pair<std::string, std::string>> attributes;
-  std::vector<Element> children;
-  std::string text;  // of its own, joined
+using xml::Element, xml::refuse;
 
-  /// Null where there is none.
-  [[nodiscard]] const std::string* attribute(const std::string& wanted) const;
-  /// The first of this name; null where there is none.
-  [[nodiscard]] const Element* child(const std::string& wanted) const;
-};
-
-/// What is wrong in a line of a file, and what would be right: an InputError of the field "line N".
-[[noreturn]] void refuse(int line, const std::string& value, const std::string& requirement);
-
-/// The outermost element of a file of at most 16 MiB. Throws InputError of refuse(). Memory: some ten times
-/// the file's size, and at most 50 elements within one another.
+/// The outermost element of a file of at most 16 MiB. Throws InputError of refuse().
 Element read_xml(const std::filesystem::path& file);
 
 }  // namespace vericone::robot

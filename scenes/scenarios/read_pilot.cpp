@@ -247,7 +247,7 @@ void add_fields_of_planes(Fields<PilotFile>& fields) {
   using F = PilotFile;
   using guidance::GuideRates, guidance::SectorMethod, simulation::Manner, simulation::Passing;
   const char* planes = "all about bodies but clearance";
-  const Json most = not_negative().schema;
+  const Json most{{"type", not_negative("m/s²").schema["type"]}, {"minimum", 0}};
   const Json swerves{{"title", "number, 0 or more, or one by the name of a body"},
                      {"anyOf", {most, {{"type", "object"}, {"additionalProperties", most}}}},
                      {"default", 0},
@@ -362,10 +362,10 @@ void add_fields_of_orifices(Fields<PilotFile>& fields) {
       f.way.source.direction = read_heading(v, p, false, degrees);
     };
   };
-  const Json speed{
-      {"title", "positive number, or one for each orifice"},
-      {"anyOf", {positive().schema, {{"type", "array"}, {"items", positive().schema}, {"minItems", 1}}}},
-      {"unit", "m/s"}};
+  const Json one{{"$ref", "body.schema.json#/$defs/positive_quantity"}};
+  const Json speed{{"title", "positive number, or one for each orifice"},
+                   {"anyOf", {one, {{"type", "array"}, {"items", one}, {"minItems", 1}}}},
+                   {"unit", "m/s"}};
   fields
       .special(
           "through", through,

@@ -13,6 +13,7 @@
 #include "input/scene.h"
 #include "json/plain_text.h"
 #include "scenarios/parts.h"
+#include "units/geographic.h"
 
 namespace vericone::scenario {
 namespace {
@@ -222,15 +223,22 @@ const Fields<ScenarioFile>& scenario_fields() {
           .special("orifices", list_of("list of orifices", {{"$ref", "#/$defs/orifice"}}), read_orifices,
                    "Openings that agents pass through, in space, below.", absent("none"))
           .special("current", {{"$ref", "#/$defs/current"}}, water,
-                   "Water or air that moves vehicles, below.", absent("none"));
+                   "Water or air that moves vehicles, below.", absent("none"))
+          .special(
+              "origin", input::origin_schema(), {},
+              "Of a scenario on the Earth: its places may be written by latitude, longitude and altitude, "
+              "as in [scenes](formats.md#places-on-the-earth).",
+              absent("nowhere"));
   return fields;
 }
 
 }  // namespace
 
-simulation::Scenario read_scenario(const Json& fields, const std::string& name,
+simulation::Scenario read_scenario(const Json& given, const std::string& name,
                                    const std::filesystem::path& folder, Readings* readings) {
-  if (!fields.is_object()) throw InputError("scenario", quoted(fields), "a mapping with bodies");
+  if (!given.is_object()) throw InputError("scenario", quoted(given), "a mapping with bodies");
+  Json kept;
+  const Json& fields = input::localized(given, kept);
   ScenarioFile read{{}, folder, readings};
   read.name = name;
   scenario_fields().read(fields, "", read);
@@ -261,7 +269,7 @@ Json scenario_file_schema() {
                      {"as_in_scenes", std::move(in_scenes)},
                      {"heading",
                       {{"title", "angle, or [azimuth, elevation]"},
-                       {"anyOf", {number().schema, vector<2>().schema}},
+                       {"anyOf", {number("rad").schema, vector<2>("rad").schema}},
                        {"description", "An angle in the plane, [azimuth, elevation] in space."}}}};
   return schema;
 }

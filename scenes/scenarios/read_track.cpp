@@ -55,7 +55,7 @@ Value<Matrix3d> quaternion() {
 }
 
 struct TrackFields {
-  std::string kind, file;
+  std::string kind, file, times_file;
   double start = 0;
   std::vector<double> times;
   std::vector<std::vector<Vector3d>> pieces;
@@ -97,8 +97,14 @@ const Fields<TrackFields>& track_fields() {
               alternative())
           .only_of({"spline"}, "spline")
           .row("interval", &T::interval, positive("s"),
-               "In place of `knots`: they are so far apart, and the track begins at 0.", alternative())
-          .only_of({"spline"}, "spline")
+               "In place of `knots`, or of the times of a file of poses that has none (KITTI): they are so "
+               "far "
+               "apart, and the track begins at 0.",
+               alternative())
+          .only_of({"spline", "poses"}, "spline, poses")
+          .row("times_file", &T::times_file, input::file_name(),
+               "In place of `interval`: a file with a time a line, as KITTI's `times.txt`.", alternative())
+          .only_of({"poses"}, "poses")
           .row("points", &T::points, list("points", place("m")), "Control points, or places at the times.",
                alternative())
           .only_of({"spline", "poses"}, "spline, poses")
@@ -208,9 +214,54 @@ void read_points(const std::string& file, TrackFields& to) {
   }
 }
 
-/// Poses by names, or t x y z, or as TUM writes them: t x y z qx qy qz qw.
-void read_poses(const std::string& file, TrackFields& to) {
+/// The rows of a 3x4 matrix [R | t], as KITTI writes poses: 12 numbers, no time.
+void read_kitti(const NumberTable& table, TrackFields& to) {
+  for (std::size_t i = 0; i < table.rows().size(); ++i) {
+    const std::vector<double>& row = table.rows()[i];
+    Matrix3d turn;
+    turn << row[0], row[1], row[2], row[4], row[5], row[6], row[8], row[9], row[10];
+    const double off = (turn * turn.transpose() - Matrix3d::Identity()).cwiseAbs().maxCoeff();
+    if (!(off <= 1e-3) || turn.determinant() < 0)
+      throw InputError(table.where(i), "a matrix that turns to within " + to_text(off),
+                       "r11 r12 r13 x r21 r22 r23 y r31 r32 r33 z with a rotation, within 1e-3");
+    to.rotations.push_back(Eigen::Quaterniond(turn).normalized().toRotationMatrix());
+    to.points.emplace_back(row[3], row[7], row[11]);
+  }
+}
+
+/// When the poses of a file without times are.
+void read_times(const std::string& file, const std::string& times_file, const std::string& path,
+                TrackFields& to) {
+  if (times_file.empty() == (to.interval == 0))
+    throw InputError(input::join(path, "interval"),
+                     times_file.empty() ? "nothing" : "given beside times_file",
+                     "either interval (s) or times_file: " + plain_text(file) + " has poses without times");
+  if (times_file.empty()) {
+    for (std::size_t i = 0; i < to.points.size(); ++i)
+      to.times.push_back(to.interval * static_cast<double>(i));
+    return;
+  }
+  const NumberTable table(times_file);
+  if (table.columns() != 1 || table.rows().size() != to.points.size())
+    throw InputError(input::join(path, "times_file"),
+                     std::to_string(table.rows().size()) + " lines of " + std::to_string(table.columns()),
+                     "a time for each of the " + std::to_string(to.points.size()) + " poses, one a line");
+  for (const std::vector<double>& row : table.rows()) to.times.push_back(row[0]);
+}
+
+/// Poses by names, or t x y z, or as TUM writes them: t x y z qx qy qz qw; or as KITTI does.
+void read_poses(const std::string& file, const std::string& times_file, const std::string& path,
+                TrackFields& to) {
   const NumberTable table(file);
+  if (!table.named() && table.columns() == 12) {
+    read_kitti(table, to);
+    read_times(file, times_file, path, to);
+    return;
+  }
+  for (const char* field : {"interval", "times_file"})
+    if (field[0] == 'i' ? to.interval > 0 : !times_file.empty())
+      throw InputError(input::join(path, field), "given",
+                       "left out: the poses of " + plain_text(file) + " have times");
   const auto t = table.find({"t", "time", "timestamp"});
   const bool named = t && table.find({"x", "tx"}) && table.find({"y", "ty"});
   const bool tum = !table.named() && table.columns() == 8, places = !table.named() && table.columns() == 4;
@@ -218,7 +269,7 @@ void read_poses(const std::string& file, TrackFields& to) {
     refuse_columns(
         table, file,
         "columns named t, x, y, z (and qx, qy, qz, qw or yaw, and vx, vy, vz), or t x y z, or t x y "
-        "z qx qy qz qw without names (TUM)");
+        "z qx qy qz qw (TUM), or the 12 numbers of 3x4 matrices (KITTI) without names");
   const auto turn = table.find({"qw"}), yaw = table.find({"yaw"});
   const auto x = table.find({"qx"}), y = table.find({"qy"}), z = table.find({"qz"});
   if (turn && (!x || !y || !z)) refuse_columns(table, file, "all of qx, qy, qz, qw");
@@ -302,8 +353,9 @@ Trajectory of_spline(TrackFields track, const std::string& path, const std::stri
   return made;
 }
 
-Trajectory of_poses(TrackFields track, const std::string& path, const std::string& file) {
-  if (!file.empty()) read_poses(file, track);
+Trajectory of_poses(TrackFields track, const std::string& path, const std::string& file,
+                    const std::string& times_file) {
+  if (!file.empty()) read_poses(file, times_file, path, track);
   require_list(track.times, path, "times");
   require_list(track.points, path, "points");
   shift(track.times, track.start);
@@ -319,7 +371,10 @@ Trajectory of_poses(TrackFields track, const std::string& path, const std::strin
 
 Trajectory read_track(const Json& value, const std::string& path, const std::filesystem::path& folder) {
   const TrackFields track = track_fields().read(value, path);
-  const std::string file = track.file.empty() ? "" : (folder / track.file).string();
+  const auto of_folder = [&](const std::string& name) {
+    return name.empty() ? name : (folder / name).string();
+  };
+  const std::string file = of_folder(track.file), times_file = of_folder(track.times_file);
   if (!file.empty()) {
     require_none(!track.times.empty(), path, "times", "file");
     require_none(!track.pieces.empty(), path, "pieces", "file");
@@ -330,19 +385,26 @@ Trajectory read_track(const Json& value, const std::string& path, const std::fil
       throw InputError(input::join(path, "file"), input::quoted(value["file"]),
                        "left out: control points stand in `pieces`");
   }
+  for (const char* field : {"interval", "times_file"})
+    if (track.kind == "poses" && file.empty() && value.contains(field))
+      throw InputError(input::join(path, field), input::quoted(value[field]),
+                       "left out, or beside a `file` of poses without times");
   if (track.kind == "poses" && track.between == Between::linear && !track.velocities.empty())
     throw InputError(input::join(path, "velocities"), "given", "left out where between is linear");
   const auto made = [&] {
     if (track.kind == "powers") return of_powers(track, path, file);
     if (track.kind == "bernstein") return of_bernstein(track, path);
     if (track.kind == "spline") return of_spline(track, path, file);
-    return of_poses(track, path, file);
+    return of_poses(track, path, file, times_file);
   };
   try {
     return made();
   } catch (const InputError& e) {
     const std::string& field = e.field();
-    const bool own = field.starts_with(path) || (!file.empty() && field.find(plain_text(file)) == 0);
+    const auto names = [&](const std::string& one) {
+      return !one.empty() && field.starts_with(plain_text(one));
+    };
+    const bool own = field.starts_with(path) || names(file) || names(times_file);
     if (own) throw;
     // The file's word for them.
     if (field.starts_with("powers"))

@@ -12,6 +12,7 @@
 #include "scenarios/parts.h"
 #include "scenarios/read_track.h"
 #include "scenarios/tracks_json.h"
+#include "units/geographic.h"
 
 namespace vericone::scenario {
 namespace {
@@ -21,12 +22,12 @@ using input::absent, input::Fields, input::not_negative, input::number, input::p
 using simulation::TrackedBody;
 
 /// [x, y, z], or [x, y] in the plane.
-Vector3d read_place(const Json& value, const std::string& path) {
+Vector3d read_place(const Json& value, const std::string& path, const std::string& words) {
   if (value.is_array() && value.size() == 2) {
-    const Eigen::Vector2d flat = input::read_vector<2>(value, path, "");
+    const Eigen::Vector2d flat = input::read_vector<2>(value, path, words.c_str());
     return {flat.x(), flat.y(), 0};
   }
-  return input::read_vector<3>(value, path, ", or of 2 in the plane");
+  return input::read_vector<3>(value, path, (words + ", or of 2 in the plane").c_str());
 }
 
 Json place_schema(const char* unit) { return {{"$ref", "body.schema.json#/$defs/point"}, {"unit", unit}}; }
@@ -48,8 +49,8 @@ const Fields<TrackedBody>& track_limit_fields() {
 
 const Fields<BodyFields>& tracked_body_fields() {
   using B = BodyFields;
-  const auto place = [](Vector3d simulation::Motion::*member) {
-    return [member](const Json& v, const std::string& p, B& b) { b.start.*member = read_place(v, p); };
+  const auto place = [](Vector3d simulation::Motion::*member, const char* words) {
+    return [=](const Json& v, const std::string& p, B& b) { b.start.*member = read_place(v, p, words); };
   };
   static const Fields<B> fields =
       Fields<B>("body")
@@ -67,14 +68,14 @@ const Fields<BodyFields>& tracked_body_fields() {
               "track", {{"$ref", "#/$defs/track"}},
               [](const Json& v, const std::string& p, B& b) { b.trajectory = read_track(v, p, b.folder); },
               "How it moves and turns, below.", absent("by the four fields that follow, for all time"))
-          .special("position", place_schema("m"), place(&simulation::Motion::position),
+          .special("position", place_schema("m"), place(&simulation::Motion::position, " (metres)"),
                    "At t = 0, of a body without `track`.", absent("the origin"))
-          .special("velocity", place_schema("m/s"), place(&simulation::Motion::velocity),
+          .special("velocity", place_schema("m/s"), place(&simulation::Motion::velocity, " (m/s)"),
                    "The same at all times.", absent("at rest"))
           .special(
               "rotation", {{"$ref", "body.schema.json#/$defs/rotation"}},
               [](const Json& v, const std::string& p, B& b) {
-                if (v.is_number())
+                if (input::may_be_number(v))
                   b.start.rotation =
                       Eigen::AngleAxisd(input::read_number(v, p, " (radians)"), Vector3d::UnitZ())
                           .toRotationMatrix();
@@ -85,11 +86,11 @@ const Fields<BodyFields>& tracked_body_fields() {
           .special(
               "spin",
               {{"title", "[x, y, z], or a number about z"},
-               {"anyOf", {{{"$ref", "body.schema.json#/$defs/vector3"}}, {{"type", "number"}}}},
+               {"anyOf", {input::vector<3>("rad/s").schema, number("rad/s").schema}},
                {"unit", "rad/s"}},
               [](const Json& v, const std::string& p, B& b) {
-                b.spin = v.is_number() ? Vector3d(0, 0, input::read_number(v, p, " (rad/s)"))
-                                       : input::read_vector<3>(v, p, " (rad/s), or one about z");
+                b.spin = input::may_be_number(v) ? Vector3d(0, 0, input::read_number(v, p, " (rad/s)"))
+                                                 : input::read_vector<3>(v, p, " (rad/s), or one about z");
               },
               "About its reference point, in world axes.", absent("it does not turn"))
           .row("radius", &B::radius, not_negative("m"),
@@ -164,7 +165,11 @@ const Fields<FileFields>& tracks_file_fields() {
                     {"title", "list of bodies"}},
                    read_tracked_bodies,
                    "Of which one or more have tracks; in the plane or in space, all of them.",
-                   input::required("a list of bodies"));
+                   input::required("a list of bodies"))
+          .special("origin", input::origin_schema(), {},
+                   "As of a scene: places of bodies and of tracks may then be written by latitude and "
+                   "longitude.",
+                   absent("nowhere"));
   return fields;
 }
 
@@ -184,7 +189,8 @@ TracksFile tracks_of_text(const std::string& text, const std::string& file) {
   FileFields read;
   read.folder = std::filesystem::path(file).parent_path();
   read.name = plain_text(std::filesystem::path(file).stem().string());
-  tracks_file_fields().read(fields, "", read);
+  Json kept;
+  tracks_file_fields().read(input::localized(fields, kept), "", read);
   return read;
 }
 

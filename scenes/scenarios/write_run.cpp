@@ -54,11 +54,20 @@ Json run_json(const simulation::Scenario& scenario, const simulation::Run& run, 
                              {"most", std::isfinite(most) ? Json(most) : Json(nullptr)},
                              {"reached", run.tracks[i].most_acceleration()}});
     for (const simulation::Goal& goal : body.pilot->goals) {
+      const auto number = std::size_t(&goal - body.pilot->goals.data());
       Json one{{"agent", body.name}, {"point", vector_json(goal.point)}, {"reached", goal.reached}};
       if (goal.velocity.any()) one["velocity"] = vector_json(goal.velocity);
       if (!goal.follows.empty()) one["follows"] = goal.follows;
       if (goal.stay > 0) one["stay"] = goal.stay;
       if (std::isfinite(goal.corridor)) one["corridor"] = goal.corridor;
+      for (const simulation::CorridorOutcome& flown : run.corridors)
+        if (flown.agent == i && flown.goal == number)
+          one["stayed"] = {{"from", flown.from},
+                           {"to", flown.to},
+                           {"verdict", flown.room >= 0 ? "inside"
+                                       : flown.left    ? "left"
+                                                       : "undecided"},
+                           {"room", flown.room}};
       goals.push_back(std::move(one));
     }
   }

@@ -36,25 +36,26 @@ bool is_row(const std::string& line, std::uint64_t i, const ResumableTable& tabl
   return plain || line == table.row(i);
 }
 
-/// Rows that stand complete in an unfinished file; the file is cut after the last of them.
+/// The first row that does not stand complete in an unfinished file, which is cut there.
 std::uint64_t complete_rows(const std::filesystem::path& partial, const ResumableTable& table,
                             const std::string& field) {
-  if (!std::filesystem::exists(partial)) return 0;
+  if (!std::filesystem::exists(partial)) return table.first;
   std::ifstream in(partial, std::ios::binary);
   std::string line;
-  if (!std::getline(in, line) || in.eof()) return 0;  // not even the first line: start anew
+  if (!std::getline(in, line) || in.eof()) return table.first;  // not even the first line: start anew
   if (line != table.settings)
     throw InputError(field, partial.parent_path().string(),
                      "a folder without the unfinished run of other settings that " +
                          partial.filename().string() + " holds; delete that file to give it up");
-  if (!std::getline(in, line) || in.eof() || line != table.header) return 0;
-  std::uint64_t rows = 0;
+  if (!std::getline(in, line) || in.eof() || line != table.header) return table.first;
+  std::uint64_t rows = table.first;
   std::uintmax_t length = table.settings.size() + table.header.size() + 2;
   while (rows < table.count && std::getline(in, line) && !in.eof()) {
     if (!is_row(line, rows, table))
       throw InputError(field, partial.parent_path().string(),
                        "a folder whose " + partial.filename().string() + " has row " + table.id(rows) +
-                           " in line " + std::to_string(rows + 3) + "; delete that file to begin anew");
+                           " in line " + std::to_string(rows - table.first + 3) +
+                           "; delete that file to begin anew");
     length += line.size() + 1;
     ++rows;
   }
@@ -129,8 +130,9 @@ bool compute_rows(const ResumableTable& table, std::uint64_t first,
 bool run_table(const ResumableTable& table, StagedFolder& folder) {
   const std::filesystem::path partial = folder.resumable(table.name);
   const std::uint64_t done = complete_rows(partial, table, folder.field());
-  OutputFile out(partial, done ? OutputFile::Start::at_end : OutputFile::Start::anew);
-  if (done == 0) out.write(table.settings + "\n" + table.header + "\n");
+  const bool goes_on = done > table.first;
+  OutputFile out(partial, goes_on ? OutputFile::Start::at_end : OutputFile::Start::anew);
+  if (!goes_on) out.write(table.settings + "\n" + table.header + "\n");
   if (table.progress && !table.progress(done)) return false;
   const bool finished = compute_rows(table, done, [&](std::string_view rows) { out.write(rows); });
   out.close();

@@ -16,13 +16,13 @@ struct ResumableTable {
   /// One line that pins down every row; unfinished work with other settings is refused.
   std::string settings{};
   std::string header{};
-  std::uint64_t count = 0;
+  std::uint64_t first = 0, count = 0;               // rows from `first` to `count`, which is none of them
   std::function<std::string(std::uint64_t)> row{};  // called from several threads
   /// The first cell of a row: a row that stands anywhere else is refused.
   std::function<std::string(std::uint64_t)> id = [](std::uint64_t i) { return std::to_string(i); };
   int threads = 1;
   std::uint64_t block = 50;  // rows that are written together
-  /// Told ten times a second, and when a block is ready, how many rows there are; false stops.
+  /// Told ten times a second, and when a block is ready, the row that comes next; false stops.
   std::function<bool(std::uint64_t rows)> progress{};
 };
 

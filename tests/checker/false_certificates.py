@@ -6,6 +6,7 @@ DROP = object()  # in place of a value: nothing is left there
 # The false certificates that a checker with one mistake would accept: what is changed in an example.
 OUT, POINT, TOUCH = ("plane", "out"), ("point", "in"), ("touch", None)
 MEET, DENT = ("point", "meet", 1), ("pairs", "apart", 1)
+CYLINDER, DISC, STANDS = ("plane", "out", 2), ("point", "in", 1), ("touch", "touching")
 FALSE = [
     # numbers
     *((OUT, ["claim", "agent", "velocity", 0], x) for x in (
@@ -26,7 +27,7 @@ FALSE = [
     (TOUCH, ["claim", "says"], "out"), (TOUCH, ["claim", "says"], "touching"), (POINT, ["claim", "says"], "on"),
     (POINT, ["proof", "point"], ["11/2", "1/2", "0"]), (POINT, ["proof", "time"], 10), (POINT, ["claim", "horizon"], [0, 4]),
     (POINT, ["claim", "horizon"], [5, 4]), (POINT, ["claim", "horizon"], [-1, 5]), (POINT, ["claim", "horizon"], -1),
-    (POINT, ["claim", "horizon"], []), (POINT, ["claim", "horizon"], DROP), (POINT, ["proof", "inside"], "both"),
+    (POINT, ["claim", "horizon"], []), (POINT, ["claim", "horizon"], DROP), (POINT, ["proof", "inside"], "neither"),
     (POINT, ["proof", "obstacle_weights"], []), (POINT, ["proof", "obstacle_weights"], DROP),
     (POINT, ["proof", "obstacle_weights"], [[0, "1/2"], [1, "1/6"], [2, "1/3"]]),
     (POINT, ["proof", "obstacle_weights", 0], [0, "-1/2"]), (POINT, ["proof", "obstacle_weights", 0], [-4, "1/2"]),
@@ -34,11 +35,30 @@ FALSE = [
     (POINT, ["proof", "obstacle_piece"], -1), (POINT, ["proof", "obstacle_piece"], 1), (POINT, ["proof", "agent_piece"], True),
     (POINT, ["proof", "agent_piece"], False), (POINT, ["proof", "agent_piece"], ""), (POINT, ["proof", "agent_piece"], 0.0),
     (("forms", "out"), ["proof", "products"], False), (("forms", "out"), ["proof", "products"], ""),
+    # flat, round and straight parts
+    (CYLINDER, ["proof", "agent_at_most"], "999999/1000000"), (CYLINDER, ["proof", "obstacle_at_least"], "2500001/1000000"),
+    (CYLINDER, ["claim", "obstacle", "margin"], 0.50001),
+    (CYLINDER, ["claim", "obstacle", "margin"], -0.5), (CYLINDER, ["claim", "agent", "margin"], "1/1000000"),
+    (CYLINDER, ["claim", "agent", "parts", 1, "factor", 1, 1], 1.0001), (CYLINDER, ["claim", "agent", "parts", 1, "factor", 1, 0], 0.01),
+    (CYLINDER, ["claim", "agent", "parts"], []), (CYLINDER, ["claim", "agent", "parts", None], {"center": [0, 1.01, 0]}),
+    (CYLINDER, ["claim", "agent", "parts", None], {"center": [0, 0]}), (CYLINDER, ["claim", "agent", "parts", None], {}),
+    (CYLINDER, ["claim", "agent", "parts", 0, "shape"], [[1, 0, 0], [0, 1, 0], [0, 0, 1]]), (CYLINDER, ["proof", "agent_multipliers"], [1]),
+    (CYLINDER, ["claim", "agent", "parts", 0], {"center": [0, 0, 0], "shape": [[1, 0, 0], [0, 1, 0], [0, 0, 0]]}),
+    (CYLINDER, ["claim", "agent", "parts", 0, "factor"], [[1, 0], [0, 1]]), (CYLINDER, ["claim", "agent", "parts", 0, "margin"], 0),
+    (CYLINDER, ["claim", "agent", "parts", 0], []), (CYLINDER, ["proof"], {"rule": "plane", "n": [0, 1, 0]}),
+    (DISC, ["proof", "inside"], "agent"), (DISC, ["proof", "inside"], "obstacle"), (DISC, ["proof", "time"], 4),
+    (DISC, ["claim", "obstacle", "points", 0], [0, 0, 0]), (DISC, ["claim", "obstacle", "points", 1], [1, 0, 1]),
+    (DISC, ["proof", "agent_weights"], [[0, "1/2"]]), (DISC, ["proof", "agent_weights"], [[0, 1, ["1/100", 0, 0]]]),
+    (DISC, ["proof", "agent_weights"], [[0, 1, [0, 0]]]), (DISC, ["proof", "agent_weights"], [[0, 1, 0]]), (DISC, ["proof", "agent_weights"], [[1, 1]]),
+    (DISC, ["proof", "agent_weights"], DROP), (DISC, ["proof", "obstacle_weights"], [[0, "1/2"], [1, "1/2", [0, 0, 0]]]),
+    (STANDS, ["proof", "agent_weights", 0, 2], ["4/5", "3/5", "1/1000"]), (STANDS, ["proof", "agent_weights", 0, 0], 0),
+    (STANDS, ["proof", "agent_weights"], [[1, 1, [2, 0, 0]]]), (STANDS, ["claim", "agent", "margin"], "1/1000"),
+    (STANDS, ["claim", "agent", "parts", 1, "factor", 0, 0], "1/2"), (STANDS, ["claim", "agent", "parts", 1, "center", 2], "1001/1000"),
     # the statement
     (OUT, ["version"], 2), (OUT, ["version"], True), (OUT, ["version"], 1.0), (OUT, ["version"], "1"), (OUT, ["format"], "vericone"),
     (OUT, ["extra"], 1), (OUT, ["claim", "extra"], 1), (OUT, ["proof", "extra"], 1), (OUT, ["claim", "agent", "extra"], 1),
     (OUT, ["proof", "agent"], {"kind": "ball"}), (OUT, ["claim", "says"], "in"), (OUT, ["claim", "says"], "on"),
-    (OUT, ["claim", "says"], "in for all"), (OUT, ["claim", "says"], ["out"]), (OUT, ["claim", "says"], "inside"),
+    (OUT, ["claim", "says"], "in_for_all"), (OUT, ["claim", "says"], ["out"]), (OUT, ["claim", "says"], "inside"),
     (OUT, ["claim", "says"], "overlapping"), (OUT, ["claim", "horizon"], DROP), (OUT, ["claim", "agent", "velocity"], [10, 1, 0]),
     (OUT, ["claim", "agent", "velocity"], DROP), (OUT, ["claim", "by"], 8), (OUT, ["claim", "by"], -1), (OUT, ["claim", "id"], {}),
     (OUT, ["claim", "obstacle", "points"], []), (OUT, ["claim", "obstacle", "points", None], [40, 0, 0]),

@@ -70,6 +70,9 @@ class Combined(unittest.TestCase):
         self.assertEqual([a["verdict"] for a in answers], ["out", "in", "in", "out", "out", "overlapping"])
         self.assertEqual(answers[5]["time_to_contact"], 0)
         self.assertEqual([a["time_to_contact"] for a in (answers[0], answers[3], answers[4])], [None] * 3)
+        # Nearest as it passes the waist's middle; at rest, and on the way away, now.
+        self.assertAlmostEqual(answers[0]["nearest_time"], 20, 2)
+        self.assertEqual([a["nearest_time"] for a in answers[1:]], [None, None, 0, 0, None])
 
     def test_hyperboloids_turn_with_the_body(self):
         q, h = [0.5, 0.5, 0.5, 0.5], [0.8, 0.36, 0, 0.48]

@@ -55,6 +55,9 @@ class Validator:
             target, other = self.resolve(node["$ref"], root)
             found += self.errors(value, target, other, path)
         kind = node.get("type")
+        if isinstance(kind, list):  # a number, or text with its unit
+            assert kind == ["number", "string"], kind
+            kind = "string" if isinstance(value, str) else "number"
         if kind in ("number", "integer"):
             if isinstance(value, bool) or not isinstance(value, (int, float)) or (kind == "integer" and value % 1):
                 found.append(f"{path}: no {kind}")

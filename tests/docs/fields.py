@@ -44,6 +44,11 @@ def said(name, node, key):
     return node.get(key)
 
 
+def type_of(node):
+    """A number that may have its unit written out is a number or text."""
+    return node["type"][0] if isinstance(node["type"], list) else node["type"]
+
+
 def kind(name, node):
     if "enum" in node:
         return ", ".join(f"`{value}`" for value in node["enum"])
@@ -53,8 +58,8 @@ def kind(name, node):
         return kind(*found(name, node["$ref"]))
     if "minimum" in node:
         above = f" to {node['maximum']}" if "maximum" in node else " or more"
-        return f"{TYPES[node['type']]}, {node['minimum']}{above}"
-    return TYPES[node["type"]]
+        return f"{TYPES[type_of(node)]}, {node['minimum']}{above}"
+    return TYPES[type_of(node)]
 
 
 def shown(value):

@@ -16,8 +16,9 @@ namespace {
 
 using vericone::InputError;
 
-constexpr std::array kNames = {"a.obj", "a.off", "a.ply",     "a.stl",   "a.pcd", "a.las", "a.xyz",
-                               "a.csv", "a.bin", "b.pcd.bin", "a.graph", "a.bt",  "a.ot"};
+constexpr std::array kNames = {"a.obj",  "a.off", "a.ply", "a.stl",     "a.pcd",   "a.las",
+                               "a.xyz",  "a.csv", "a.bin", "b.pcd.bin", "a.graph", "a.dae",
+                               "a.gltf", "a.laz", "a.ptx", "a.bt",      "a.ot"};
 
 void require(bool holds, const char* what) {
   if (holds) return;

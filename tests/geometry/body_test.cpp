@@ -72,12 +72,14 @@ TEST(BodyOfAnyKind, SupportBoundsAndEllipsoidContainItsPoints) {
 
 TEST(BodyOfAnyKind, FlatAndSinglePointsHaveAnEllipsoidAround) {
   const std::vector<std::vector<Vector3d>> flat{
-      {{1, 2, 3}}, {{0, 0, 0}, {1, 0, 0}}, {{0, 0, 5}, {1, 0, 5}, {0, 1, 5}, {1, 1, 5}}};
+      {{1, 2, 3}}, {{0, 0, 0}}, {{0, 0, 0}, {1, 0, 0}}, {{0, 0, 5}, {1, 0, 5}, {0, 1, 5}, {1, 1, 5}}};
   for (const auto& points : flat) {
     const Ellipsoid around = Body(HullBody(points)).containing_ellipsoid();
     for (const Vector3d& x : points)
       EXPECT_LE((x - around.center()).dot(around.shape().inverse() * (x - around.center())), 1 + 1e-9);
   }
+  const Body swelled = swollen(Body(HullBody({Vector3d(0, 0, 0)})), 2);
+  EXPECT_LE((swelled.containing_ellipsoid().semi_axes() - Vector3d::Constant(2)).norm(), 1e-9);
 }
 
 TEST(BodyOfAnyKind, PosesComposeAndInvert) {

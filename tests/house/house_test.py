@@ -176,7 +176,7 @@ class House(unittest.TestCase):
         """Who serves a pair is known in cones/src/pairs alone: elsewhere no condition asks two bodies for their kinds, but
         where every answer is right and one is sharper; and no switch is on the kind of a body, but in geometry (what a body
         is) and where bodies are read and written."""
-        sharper = ("guidance/simulation/src/proof/", "guidance/src/clearance_law.cpp", "apps/src/cone/cone.cpp")
+        sharper = ("cones/src/motion/", "guidance/simulation/src/proof/", "guidance/src/clearance_law.cpp", "apps/src/cone/cone.cpp")
         kind = r"(\w+(?:\.\w+)*)\s*(?:\.|->)\s*(?:quadric|quadrics|hull|placed|flat|assembly|delimited)\(\)"
         two = re.compile(r"!?" + kind + r"\s*(?:&&|\|\|)\s*\(?!?" + kind)
         one = re.compile(r"[=!]= BodyKind::|case BodyKind::")

@@ -12,7 +12,7 @@ namespace vericone::read_scene_test {
 namespace {
 
 using scenes::Scene, scenes::SceneBody, scenes::scene_of_text;
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 const std::filesystem::path kFolder = VERICONE_EXAMPLES;
 
@@ -120,7 +120,7 @@ TEST(ReadScene, SeveralThreadsReadTheSameMesh) {
         for (int i = 0; i < 20; ++i) size = before_ball("{mesh: window.obj}").obstacle.pieces()->size();
       });
   }
-  EXPECT_THAT(sizes, testing::Each(8u));
+  EXPECT_THAT(sizes, ::testing::Each(8u));
 }
 
 }  // namespace

@@ -163,11 +163,84 @@ TEST(Robot, HasItsMeshesScaledAndMirrored) {
     const SceneBody body = folder.body(fields);
     const Assembly& mesh = *body.pieces();
     ASSERT_EQ(mesh.kind(), PieceKind::triangle);
-    EXPECT_EQ(mesh.piece(0).points(), (std::vector<Vector3d>{{2, 0, 0}, {0, -3, 0}, {0, 0, 0.5}}));
+    EXPECT_EQ(mesh.piece(0).points(), (std::vector<Vector3d>{{0, 0, 0.5}, {0, -3, 0}, {2, 0, 0}}));
   }
   EXPECT_THAT(folder.refusal("{robot: in/package.urdf}"), HasSubstr("{teeth: FOLDER}"));
   EXPECT_THAT(folder.refusal("{robot: in/out.urdf, packages: {teeth: shapes}}"),
               HasSubstr("within its package"));
+}
+
+TEST(Robot, HasMeshesOfScenesUpright) {
+  Folder folder;
+  // The same triangle: z up in metres, y up in centimetres.
+  const auto dae = [](const char* asset, const char* points) {
+    return std::string("<COLLADA version='1.4.1'><asset>") + asset +
+           "</asset><library_geometries><geometry><mesh><source id='s'><float_array id='f'>" + points +
+           "</float_array><technique_common><accessor source='#f' count='3' "
+           "stride='3'/></technique_common></source>"
+           "<vertices id='v'><input semantic='POSITION' source='#s'/></vertices><triangles><input "
+           "semantic='VERTEX' "
+           "source='#v' offset='0'/><p>0 1 "
+           "2</p></triangles></mesh></geometry></library_geometries></COLLADA>";
+  };
+  folder.write("metres.dae", dae("<up_axis>Z_UP</up_axis>", "1 0 0 0 1 0 0 0 2"));
+  folder.write("centimetres.dae", dae("<unit meter='0.01'/>", "100 0 0 0 0 -100 0 200 0"));
+  folder.write("up.gltf", R"({"asset": {"version": "2.0"}, "buffers": [{"byteLength": 9, "uri":
+      "data:;base64,AQAAAAD/AAIA"}], "bufferViews": [{"buffer": 0, "byteLength": 9}], "accessors": [{"bufferView": 0,
+      "componentType": 5120, "type": "VEC3", "count": 3}], "meshes": [{"primitives": [{"attributes": {"POSITION":
+      0}}]}]})");
+  for (const char* name : {"metres.dae", "centimetres.dae", "up.gltf"}) {
+    folder.write("r.urdf",
+                 std::string("<robot name='r'><link name='l'><collision><geometry><mesh filename='") + name +
+                     "'/></geometry></collision></link></robot>");
+    for (const std::string& fields : {std::string("{robot: r.urdf}"), std::string("{mesh: ") + name + "}"}) {
+      const SceneBody body = folder.body(fields);
+      EXPECT_EQ(body.pieces()->piece(0).points(), (std::vector<Vector3d>{{1, 0, 0}, {0, 1, 0}, {0, 0, 2}}))
+          << fields;
+    }
+  }
+}
+
+TEST(Robot, OfSdfIncludesFilesBesideIt) {
+  Folder folder;
+  folder.write(
+      "models/box/model.sdf",
+      "<sdf><model name='box'><pose>1 0 0 0 0 0</pose><link name='l'><collision name='c'><geometry><mesh>"
+      "<uri>box.obj</uri></mesh></geometry></collision></link></model></sdf>");
+  folder.write("models/box/box.obj", "v 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\n");
+  folder.write("world.sdf",
+               "<sdf><world name='w'><include><uri>model://box</uri></include><include><uri>models/box</uri>"
+               "<name>other</name><pose>0 0 7 0 0 0</pose></include></world></sdf>");
+  const SceneBody body = folder.body("{robot: world.sdf, packages: {box: models/box}}");
+  ASSERT_EQ(body.pieces()->size(), 2u);
+  EXPECT_EQ(body.pieces()->piece(0).points(), (std::vector<Vector3d>{{2, 0, 0}, {1, 1, 0}, {1, 0, 1}}));
+  EXPECT_EQ(body.pieces()->piece(1).points(), (std::vector<Vector3d>{{1, 0, 7}, {0, 1, 7}, {0, 0, 8}}));
+  EXPECT_EQ(
+      folder.body("{robot: world.sdf, packages: {box: models/box}, links: ['other::l']}").pieces()->size(),
+      1u);
+  folder.write("models/box/model.sdf", "<sdf>\n<model name='box'><link/></model></sdf>");
+  EXPECT_THAT(folder.refusal("{robot: world.sdf, packages: {box: models/box}}"),
+              HasSubstr("line 1: model://box, line 2: <link>"));
+}
+
+/// The finger turns by -2 (the shoulder's angle - 0.25) + 0.5, as its joint says.
+TEST(Robot, OfSdfHasJointsThatFollowOthers) {
+  Folder folder;
+  std::string text = kSdf;
+  text.insert(
+      text.find("</model>"),
+      "<link name='finger'><pose relative_to='hand'/><collision name='c'><pose>1 0 0 0 0 0</pose><geometry>"
+      "<sphere><radius>0.25</radius></sphere></geometry></collision></link><joint name='copy' "
+      "type='revolute'><parent>hand</parent><child>finger</child><axis><xyz>0 0 1</xyz><mimic "
+      "joint='shoulder'><multiplier>-2</multiplier><offset>0.5</offset><reference>0.25</reference></mimic>"
+      "</axis></joint>");
+  folder.write("arm.sdf", text);
+  const double a = 0.7, b = -0.3, turned = a + b - 2 * (a - 0.25) + 0.5;
+  const SceneBody body = folder.body("{robot: arm.sdf, " + joints(a, b, 0.125));
+  const Vector3d hand(2 * std::cos(a) + std::cos(a + b), 2 * std::sin(a) + std::sin(a + b), 0.625);
+  EXPECT_LT((body.pieces()->convex_piece(4).middle() - hand - Vector3d(std::cos(turned), std::sin(turned), 0))
+                .norm(),
+            1e-12);
 }
 
 TEST(Robot, ThatIsNoneIsRefusedInOneLine) {
@@ -212,7 +285,12 @@ TEST(Robot, ThatIsNoneIsRefusedInOneLine) {
        "in a circle"},
       {"<sdf><model name='m'><link "
        "name='l'><collision><geometry><plane/></geometry></collision></link></model></sdf>",
-       "ellipsoid or mesh"}};
+       "that ends somewhere"},
+      {"<sdf><include><uri>none</uri></include></sdf>", "no such file"},
+      {"<sdf><include><uri>https://models/robot</uri></include></sdf>", "a file's name"},
+      {"<sdf><include><uri>x.urdf</uri></include></sdf>", "in the included file itself"},
+      {"<sdf><include><uri>arm.urdf</uri></include></sdf>", "<sdf>"},
+      {"<sdf><model name='m'><pose relative_to='k'/><link name='l'/></model></sdf>", "stand in the world"}};
   for (const auto& [text, expected] : files) {
     folder.write("x.urdf", text);
     const std::string refusal = folder.refusal("{robot: x.urdf}");

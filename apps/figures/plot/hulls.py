@@ -49,6 +49,36 @@ class Cylinder:
         return [points]
 
 
+class Faceted:
+    """A solid by its surface alone, with what Solid has of it for outlines: the edges at which it turns."""
+
+    def __init__(self, piece: Data) -> None:
+        mesh = piece["mesh"]
+        self.center = np.zeros(3)
+        self.points = np.array(mesh["vertices"])
+        self.triangles, self.quadrics = np.array(mesh["triangles"]), np.array(mesh["quadrics"])
+        self.normals = corner_normals(self.points[self.triangles])
+        sides: dict[tuple[int, int], list[int]] = {}
+        for number, (a, b, c) in enumerate(self.triangles):
+            for edge in ((a, b), (b, c), (c, a)):
+                sides.setdefault((min(edge), max(edge)), []).append(number)
+        self.edges = [(edge, of) for edge, of in sides.items() if len(of) == 2]
+
+    def rims(self) -> Array:
+        sharp = [edge for edge, (i, j) in self.edges if self.normals[i] @ self.normals[j] < 0.8]
+        return [self.points[list(edge)] for edge in sharp]
+
+    def contours(self, toward: Array) -> Array:
+        front = self.normals @ toward > 0
+        return [self.points[list(edge)] for edge, (i, j) in self.edges if front[i] != front[j]]
+
+    def hides(self, points: Array, _: Any) -> Array:
+        return np.zeros(len(points), bool)
+
+    def beside(self, points: Array) -> Array:
+        return [points]
+
+
 def corner_normals(triangles: Array) -> Array:
     normal = np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
     length = np.linalg.norm(normal, axis=1)
@@ -119,7 +149,8 @@ def limits(axes: Axes, view: "View", points: Array) -> None:
 
 def parts(data: Data) -> tuple[list[Any], Array]:
     """The pieces of the hull, and all points that must be seen."""
-    solids: list[Any] = [Cylinder(p) if "footprint" in p else Solid(p, colors=(EXACT, SLICE)) for p in data["hull"]]
+    solids: list[Any] = [Cylinder(p) if "footprint" in p else Solid(p, colors=(EXACT, SLICE)) if "body" in p else
+                         Faceted(p) for p in data["hull"]]
     scan = data["scan"]
     shown = np.array(scan["points"]) if "points" in scan else np.array(scan["triangles"]).reshape(-1, 3)
     return solids, np.vstack([s.points + s.center for s in solids] + [shown])

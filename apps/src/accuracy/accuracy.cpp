@@ -22,10 +22,12 @@
 #include "accuracy/measure.h"
 #include "accuracy/statistics.h"
 #include "accuracy/summary.h"
+#include "command/output_line.h"
 #include "commands.h"
 #include "input/stopwatch.h"
 #include "json/json_value.h"
 #include "output/output_file.h"
+#include "output/part.h"
 #include "output/progress.h"
 #include "output/results.h"
 #include "picture/engagements.h"
@@ -260,36 +262,38 @@ int run_accuracy(const Options& given, std::ostream& standard_output) {
   work::StagedFolder folder(options.out, "--out");
   const auto start = Clock::now();
   const auto filled = [&](const work::ResumableTable& table, const char* label) {
-    return run_with_bar(table, folder, label, options.quiet, options.out, out);
+    return run_with_bar(table, folder, label, options, out);
   };
 
-  const work::ResumableTable pairs = table_of_pairs(options, engagements);
-  if (!filled(pairs, options.cases.empty() ? "random engagements" : "engagements       "))
+  std::vector<work::ResumableTable> tables{table_of_pairs(options, engagements)};
+  if (!filled(tables.front(), options.cases.empty() ? "random engagements" : "engagements       "))
     return kExitInterrupted;
   const double seconds = seconds_since(start);
-  const auto rows = read_table(folder.resumable(pairs.name), options.planes.size());
+  if (!scans.empty()) {
+    tables.push_back(table_of_scans(options, scans));
+    if (!filled(tables.back(), "scanned objects   ")) return kExitInterrupted;
+  }
+  Json origin = origin_of(options, engagements);
+  origin["seconds"] = seconds_since(start);
+  if (!options.part.empty()) return publish_part(options, folder, tables, std::move(origin), standard_output);
+  const auto rows = read_table(folder.resumable(tables.front().name), options.planes.size());
   const Summary random = summarise(rows, options.planes);
   Results found{.summary = {{"random", to_json(random)}},
-                .origin = {},
+                .origin = std::move(origin),
                 .scripts = {"accuracy.py", "engagement.py"},
-                .files = {pairs.name},
+                .files = {tables.front().name},
                 .old = {"accuracy.pdf", "accuracy.png", "engagement.pdf", "engagement.png", "scans.csv",
                         "scans.pdf", "scans.png"}};
-  found.summary["random"]["seconds"] = seconds;
   found.summary["random"]["drawn"] = engagements.drawn;
   out << engagements.count << ' ' << engagements.drawn << ", " << options.planes.size() << " plane counts, "
       << std::fixed << std::setprecision(1) << seconds << " s\n";
   print_summary(random, out);
   if (!scans.empty()) {
-    const work::ResumableTable approaches = table_of_scans(options, scans);
-    if (!filled(approaches, "scanned objects   ")) return kExitInterrupted;
-    const auto own = read_table(folder.resumable(approaches.name), options.planes.size());
+    const auto own = read_table(folder.resumable(tables.back().name), options.planes.size());
     found.summary["scans"] = tell_scans(options, scans, own, out);
-    found.files.push_back(approaches.name);
+    found.files.push_back(tables.back().name);
   }
   write_whole(folder.path() / "engagement.json", picture_of(engagements, rows).dump(1) + "\n");
-  found.origin = origin_of(options, engagements);
-  found.origin["seconds"] = seconds_since(start);
   found.files.insert(found.files.end(), {"summary.json", "provenance.json"});
   publish(found, options, folder, "", standard_output);
   return 0;
@@ -326,13 +330,14 @@ int accuracy_command(CommandLine& line) {
       .words(1, -1)
       .commas();
   line.option("--seed", options.seed, "Seed of all random numbers");
+  part_option(line, options);
   line.option("--out", options.out, "Folder for tables and pictures").shown_default("out/accuracy");
   line.option("--threads", options.threads, "Threads, 0: one per processor");
   line.negative_flag("--no-figures", options.figures, "Tables only");
   line.flag("--quiet", options.quiet, "No progress");
   line.flag("--json", options.json, "Print JSON: summary.json");
   line.read();
-  options.command_line = line.text();
+  keep_words(line, options);
   return accuracy::run_accuracy(options, std::cout);
 }
 

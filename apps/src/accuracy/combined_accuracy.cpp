@@ -16,6 +16,7 @@
 #include "accuracy/statistics.h"
 #include "input/stopwatch.h"
 #include "json/json_value.h"
+#include "output/part.h"
 #include "output/progress.h"
 #include "output/results.h"
 #include "work/interrupt.h"
@@ -193,20 +194,22 @@ int run_combined_accuracy(const Options& options, ObstacleKind kind, std::ostrea
     const auto [a, b] = random_combined_engagement(kind, options.seed, i, from);
     return line(i, measure_combined(a, b, options.planes, tolerance), a, b);
   };
-  if (!run_with_bar(campaign, folder, options.obstacle + " obstacles", options.quiet, options.out, out))
-    return kExitInterrupted;
+  if (!run_with_bar(campaign, folder, options.obstacle + " obstacles", options, out)) return kExitInterrupted;
 
   const double seconds = seconds_since(start);
+  Json origin = provenance(options.command_line, campaign.threads, {});
+  origin["seconds"] = seconds;
+  if (!options.part.empty())
+    return publish_part(options, folder, {campaign}, std::move(origin), standard_output);
   const CombinedSummary summary = summarise_combined(
       read_combined(folder.resumable(campaign.name), options.planes.size()), options.planes);
   Results found{.summary = {{"random", to_json(summary)}},
-                .origin = provenance(options.command_line, campaign.threads, {}),
+                .origin = std::move(origin),
                 .scripts = {"combined_accuracy.py"},
                 .files = {campaign.name, "summary.json", "provenance.json"},
                 .old = {"accuracy.pdf", "accuracy.png"}};
   found.summary["random"]["obstacle"] = options.obstacle;
   found.summary["random"]["tolerance"] = tolerance;
-  found.summary["random"]["seconds"] = seconds;
   found.summary["random"]["drawn"] = distribution_text(from);
   out << count << " random engagements with " << options.obstacle << " obstacles, " << options.planes.size()
       << " plane counts, true cones certified to " << percent(tolerance) << ", " << std::fixed
@@ -217,7 +220,6 @@ int run_combined_accuracy(const Options& options, ObstacleKind kind, std::ostrea
   found.origin["tolerance"] = tolerance;
   found.origin["engagements"] = count;
   found.origin["planes"] = options.planes;
-  found.origin["seconds"] = seconds_since(start);
   publish(found, options, folder, "", standard_output);
   return 0;
 }

@@ -8,6 +8,7 @@
 #include "input/body.h"
 #include "input/fields.h"
 #include "json/json_value.h"
+#include "units/geographic.h"
 #include "work/threads.h"
 
 namespace vericone {
@@ -38,10 +39,12 @@ Eigen::Vector3d velocity_of(const Json& value, const char* name) {
 
 }  // namespace
 
-EncounterCase::EncounterCase(const Json& value, const std::vector<std::string>& also,
+EncounterCase::EncounterCase(const Json& given, const std::vector<std::string>& also,
                              const std::filesystem::path& folder)
     : agent(Body()) {
-  input::require_object(value, "case");
+  input::require_object(given, "case");
+  Json kept;
+  const Json& value = input::localized(given, kept);
   std::vector<std::string> known{"id", "agent", "agent_velocity", "obstacles", "horizon", "wind", "limits"};
   known.insert(known.end(), also.begin(), also.end());
   input::require_known(value, "", known);

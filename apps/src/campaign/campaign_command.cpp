@@ -7,15 +7,18 @@
 #include <ostream>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "campaign/summary_text.h"
 #include "command/default_seed.h"
+#include "command/output_line.h"
 #include "commands.h"
 #include "input/stopwatch.h"
 #include "json/json_value.h"
 #include "output/output_file.h"
 #include "output/output_options.h"
+#include "output/part.h"
 #include "output/progress.h"
 #include "output/results.h"
 #include "scenarios/campaign_table.h"
@@ -60,16 +63,17 @@ int run_campaign(const CampaignOptions& options, std::ostream& out) {
   work::StagedFolder folder(options.out, "--out");
   const auto start = Clock::now();
   const work::ResumableTable table = scenario::campaign_table(campaign, laws, threads_for(options.threads));
-  if (!run_with_bar(table, folder, "engagements", options.quiet, options.out, out)) return kExitInterrupted;
-  const double seconds = seconds_since(start);
+  if (!run_with_bar(table, folder, "engagements", options, out)) return kExitInterrupted;
+  Json origin = provenance(options.command_line, table.threads, {});
+  origin["seconds"] = seconds_since(start);
+  if (!options.part.empty()) return publish_part(options, folder, {table}, std::move(origin), out);
   const Summary found = summarise(read_table(folder.resumable(table.name), laws.size()), laws);
   Results results{.summary = to_json(found),
-                  .origin = provenance(options.command_line, table.threads, {}),
+                  .origin = std::move(origin),
                   .scripts = {"engagement_campaign.py"},
                   .files = {table.name, "summary.csv", "summary.json"},
                   .old = {"campaign.pdf", "campaign.png"}};
   results.summary["settings"] = table.settings;
-  results.summary["seconds"] = seconds;
   results.summary["violations"] = violations(found);
   write_whole(folder.path() / "summary.csv", summary_csv(found));
   std::ostringstream text;
@@ -100,11 +104,12 @@ int campaign_command(CommandLine& line) {
   line.option("--reference", campaign.reference, "w, to which y is driven");
   line.option("--required", campaign.required, "Of the clearance law, metres");
   line.option("--step", campaign.step, "Between two commands, s");
+  part_option(line, campaign);
   line.negative_flag("--no-figures", campaign.figures, "Tables only");
   line.flag("--quiet", campaign.quiet, "No progress");
   line.flag("--json", campaign.json, "Print JSON");
   line.read();
-  campaign.command_line = line.text();
+  keep_words(line, campaign);
   return montecarlo::run_campaign(campaign, std::cout);
 }
 

@@ -83,21 +83,8 @@ std::string limit_text(const TracksFile& tracks, const LimitOnTrack& one) {
 
 /// Contacts first, then what is nearest.
 bool worse(const PairOnTracks& x, const PairOnTracks& y) {
-  const auto order = [](const PairOnTracks& pair) {
-    switch (pair.verdict) {
-      case TrackVerdict::contact:
-        return 0;
-      case TrackVerdict::nearer:
-        return 1;
-      case TrackVerdict::undecided:
-        return 2;
-      case TrackVerdict::apart:
-        return 3;
-    }
-    return 3;
-  };
-  if (order(x) != order(y)) return order(x) < order(y);
-  return order(x) < 3 ? x.to < y.to : x.least_distance < y.least_distance;
+  if (x.verdict != y.verdict) return x.verdict < y.verdict;
+  return x.verdict == TrackVerdict::apart ? x.least_distance < y.least_distance : x.to < y.to;
 }
 
 /// All of a few; of many those that are not kept.

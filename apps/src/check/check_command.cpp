@@ -3,7 +3,9 @@
 #include <vericone/geometry/error.h>
 #include <vericone/internal/files/extensions.h>
 #include <vericone/internal/scenes/words.h>
+#include <vericone/scenarios/scenario_files.h>
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <iostream>
 #include <optional>
@@ -11,14 +13,17 @@
 #include <string>
 
 #include "commands.h"
+#include "glb/scene_glb.h"
 #include "input/fields.h"
 #include "input/file_body.h"
 #include "input/planar_body.h"
 #include "input/scene.h"
 #include "json/json_value.h"
+#include "output/output_file.h"
 #include "paper/paper.h"
 #include "scenarios/read_scenario.h"
 #include "simulate/run_text.h"
+#include "units/geographic.h"
 
 namespace vericone {
 namespace {
@@ -48,12 +53,17 @@ void add_notes(const std::optional<scenes::Reading>& reading, scenario::Facts& f
   for (const std::string& note : scenes::reading_words(*reading)) facts.add("note", note);
 }
 
+void add_origin(const Json& fields, scenario::Facts& facts) {
+  if (fields.contains("origin")) facts.add("origin", input::origin_words(fields["origin"]));
+}
+
 void check_scene(const Json& fields, const std::string& file, scenario::Facts& facts) {
   const scenes::Scene scene = input::scene_of(fields, file);
   const Pair pair = scene.pair();
   const Vector3d &v_a = scene.agent.velocity, &v_b = scene.obstacle.velocity;
   const bool planar = scene.planar.has_value();
   facts.add("scene", file);
+  add_origin(fields, facts);
   facts.add("agent", (planar ? body_words(scene.planar->agent) : body_words(scene.agent.placed)) + "; " +
                          motion_words(v_a, planar));
   facts.add("obstacle", (planar ? body_words(scene.planar->obstacle) : body_words(scene.obstacle.placed)) +
@@ -82,6 +92,7 @@ void check_scenario(const Json& fields, const std::string& file, scenario::Facts
   const simulation::Scenario scenario = scenario::read_scenario(fields, fs::path(file).stem().string(),
                                                                 fs::path(file).parent_path(), &readings);
   facts.add("scenario", file);
+  add_origin(fields, facts);
   facts.add("time", brief(scenario.duration) + " s at most, commands every " + brief(scenario.step) + " s");
   for (std::size_t i = 0; i < scenario.bodies.size(); ++i) {
     const simulation::Body& body = scenario.bodies[i];
@@ -106,18 +117,74 @@ void check_scenario(const Json& fields, const std::string& file, scenario::Facts
   if (pilots == 0) facts.add("note", "no body has a pilot: all go straight on");
 }
 
-void check_body(const std::string& file, scenario::Facts& facts) {
+/// Whether the bodies are those of `vericone certify`: one has a track.
+bool are_tracks(const Json& fields) {
+  const Json& bodies = fields["bodies"];
+  return bodies.is_array() && std::any_of(bodies.begin(), bodies.end(), [](const Json& body) {
+           return body.is_object() && body.contains("track");
+         });
+}
+
+std::string track_words(const simulation::TrackedBody& body) {
+  std::string text;
+  if (body.trajectory) {
+    const simulation::Piecewise& way = body.trajectory->position;
+    text = "track from " + brief(way.from()) + " to " + brief(way.to()) + " s, " +
+           std::to_string(way.points.size()) + (way.points.size() == 1 ? " piece" : " pieces") +
+           (body.trajectory->turned || body.trajectory->rotation.size() > 1 ? "; turns" : "");
+  } else {
+    text = motion_words(body.start.velocity, simulation::planar(body.shape));
+    if (body.spin.any()) text += "; spins at " + brief(body.spin.norm()) + " rad/s";
+  }
+  if (body.radius > 0) text += "; within " + brief(body.radius) + " m of it";
+  if (std::isfinite(body.most_speed)) text += "; speed at most " + brief(body.most_speed) + " m/s";
+  if (std::isfinite(body.most_acceleration))
+    text += "; acceleration at most " + brief(body.most_acceleration) + " m/s^2";
+  return text;
+}
+
+void check_tracks(const std::string& text, const Json& fields, const std::string& file,
+                  scenario::Facts& facts) {
+  const scenario::TracksFile tracks = scenario::tracks_of_text(text, file);
+  facts.add("tracks", file);
+  add_origin(fields, facts);
+  std::size_t with_track = 0;
+  for (const simulation::TrackedBody& body : tracks.bodies) {
+    simulation::Body shown;
+    shown.shape = body.shape;
+    facts.add(body.name, scenario::shape_words(shown) + "; " + track_words(body));
+    if (body.trajectory) ++with_track;
+  }
+  const std::size_t without = tracks.bodies.size() - with_track;
+  facts.add("pairs", std::to_string(with_track * (with_track - 1) / 2 + with_track * without) +
+                         ", each to be farther apart than " + brief(tracks.options.required) + " m");
+  facts.add("prove it", "vericone certify " + file);
+}
+
+/// The body for viewers of glTF, and in the extras what `vericone fit` has proved of it.
+void write_body_glb(const scenes::SceneBody& body, const Json& fields, const std::string& glb) {
+  Json says{{"what", "body"}};
+  for (const char* field : {"file", "mode", "shape", "coverage", "margin", "certified", "certificate"})
+    if (fields.contains("certified") && fields.contains(field)) says["fit"][field] = fields[field];
+  write_whole(glb, glb::bodies_glb({{"body", body.placed, 1, {{"is", body_words(body.placed)}}}}, says));
+}
+
+/// `glb`: a file for viewers; empty: none.
+void check_body(const std::string& file, const Json& fields, const std::string& glb, scenario::Facts& facts) {
   const fs::path path(file);
   const Json named{{"file", path.filename().string()}};
   facts.add("body", file);
   // A planar one has two numbers where others have three.
   const Json body = input::body_fields(named, "", path.parent_path());
   const bool planar = body.contains("center") && body["center"].is_array() && body["center"].size() == 2;
+  if (planar && !glb.empty())
+    throw InputError("--glb", glb, "asked for of a body in space; of a scene in the plane cone writes one");
   if (planar) {
     facts.add("is", body_words(input::read_planar_body(body, "")));
   } else {
     const scenes::SceneBody read = input::read_body(body, "", path.parent_path());
     facts.add("is", body_words(read.placed));
+    if (!glb.empty()) write_body_glb(read, fields, glb);
     add_notes(read.reading, facts);
   }
   facts.add("use it", "obstacle: {file: " + path.filename().string() +
@@ -125,26 +192,35 @@ void check_body(const std::string& file, scenario::Facts& facts) {
                           "} in a scenario");
 }
 
-/// `vericone check`: what a scene, a scenario, a pursuit, a file with a body, or figures or claims of a paper
-/// mean, in plain words, or the first thing that is wrong with it. Nothing is computed but what the bodies
-/// are and how far apart they stand. As text, or as JSON: a list of label and text.
-int run_check(const std::string& file, bool json, std::ostream& out) {
+/// `vericone check`: what a scene, a scenario, tracks, a pursuit, a file with a body, or figures or claims of
+/// a paper mean, in plain words, or the first thing that is wrong with it. Nothing is computed but what the
+/// bodies are and how far apart they stand. As text, or as JSON: a list of label and text.
+int run_check(const std::string& file, bool json, const std::string& glb, std::ostream& out) {
   std::vector<std::string> scans = files::known_extensions();
   scans.insert(scans.end(), {".bt", ".ot"});
   if (std::ranges::find(scans, fs::path(file).extension().string()) != scans.end())
     throw InputError(file, "a scan or a map",
                      "a scene, a scenario or a body; vericone fit reads scans and maps");
-  const Json fields = input::read_scene_fields(file);
+  const std::string text = input::read_scene_text(file);
+  const Json fields = input::scene_fields(text, file);
   if (!fields.is_object())
     throw InputError(file, input::quoted(fields),
                      "a scene, a scenario, a body, or figures or claims of a paper: a mapping of fields");
   scenario::Facts facts;
-  switch (input::kind_of_file(fields)) {
+  const input::FileKind kind = input::kind_of_file(fields);
+  if (!glb.empty() && kind != input::FileKind::body && kind != input::FileKind::unknown)
+    throw InputError("--glb", glb,
+                     std::string("left out with ") + input::name_of(kind) +
+                         ": vericone cone writes one of a scene, simulate of a run");
+  switch (kind) {
     case input::FileKind::paper:
       paper::describe(paper::Paper(fs::absolute(file).parent_path().string()), file, facts);
       break;
     case input::FileKind::scenario:
-      check_scenario(fields, file, facts);
+      if (are_tracks(fields))
+        check_tracks(text, fields, file, facts);
+      else
+        check_scenario(fields, file, facts);
       break;
     case input::FileKind::scene:
       check_scene(fields, file, facts);
@@ -152,7 +228,7 @@ int run_check(const std::string& file, bool json, std::ostream& out) {
     case input::FileKind::pursuit:
       hand_over("pursue", "check", json ? std::vector<std::string>{file, "--json"} : std::vector{file}, file);
     default:
-      check_body(file, facts);
+      check_body(file, fields, glb, facts);
   }
   facts.print(json, out);
   return 0;
@@ -163,14 +239,18 @@ int run_check(const std::string& file, bool json, std::ostream& out) {
 int check_command(CommandLine& line) {
   std::string file;
   line.option("file", file,
-              "Scene, scenario, pursuit, body, figures or claims, YAML (docs/reference/formats.md, "
+              "Scene, scenario, tracks, pursuit, body, figures or claims, YAML (docs/reference/formats.md, "
               "docs/reference/scenarios.md, docs/reference/papers.md)")
       .required();
   bool json = false;
   line.flag("--json", json, "Print JSON: labels with their texts");
+  std::string glb;
+  line.option(
+      "--glb", glb,
+      "File for a body, or a fit (fit.json), as binary glTF, for viewers (docs/reference/formats.md)");
   line.quiet();
   line.read();
-  return run_check(file, json, std::cout);
+  return run_check(file, json, glb, std::cout);
 }
 
 }  // namespace vericone

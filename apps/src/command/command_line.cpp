@@ -233,9 +233,15 @@ void CommandLine::read() {
     if (given) *target = false;
 }
 
+std::vector<std::string> CommandLine::words() const {
+  std::vector<std::string> words{name_};
+  words.insert(words.end(), words_.begin(), words_.end());
+  return words;
+}
+
 std::string CommandLine::text() const {
-  std::string text = "vericone " + name_;
-  for (const std::string& word : words_) text.append(" ").append(word);
+  std::string text = "vericone";
+  for (const std::string& word : words()) text.append(" ").append(word);
   return text;
 }
 

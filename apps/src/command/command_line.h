@@ -67,6 +67,8 @@ class CommandLine {
 
   /// The whole command line for provenance, with the program's name for its path.
   std::string text() const;
+  /// The command's name and what stands after it.
+  std::vector<std::string> words() const;
 
  private:
   struct Parser;

@@ -3,9 +3,11 @@
 
 #include <vericone/cones/ellipsoids/clearance.h>
 #include <vericone/cones/pair.h>
+#include <vericone/internal/cones/combined/nearest_points.h>
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <limits>
 
 #include "json/json_value.h"
 
@@ -56,7 +58,8 @@ void add_enclosed_time(Json& result, const Pair& pair, Verdict verdict, const Ei
     enclosure = {contact->earliest, contact->latest};
   }
   result["clearance"] = nullptr;
-  result["nearest_time"] = nullptr;
+  result["nearest_time"] =
+      verdict == Verdict::out ? number_or_null(nearest_time(pair, v_a, v_b)) : Json(nullptr);
   result["time_to_contact"] = time;
   result["time_enclosure"] = enclosure;
 }
@@ -119,6 +122,43 @@ Json answer(const scenes::Scene& scene, bool with_rung, const Horizon& horizon) 
     add_left_out(result, scene.obstacle);
   }
   return result;
+}
+
+Json motion_answer(const scenes::Scene& scene, const BodyMotion& agent, const BodyMotion& obstacle,
+                   const Horizon& horizon, bool with_rung) {
+  const MotionAnswer found =
+      motion_answer(scene.agent.placed, agent, scene.obstacle.placed, obstacle, horizon);
+  Json result{{"verdict", to_string(found.verdict)}, {"guarantee", "certified"}};
+  if (with_rung) result["rung"] = "certified";
+  const bool out = found.verdict == Verdict::out, met = !out && found.verdict != Verdict::undecided;
+  const bool touching = found.verdict == Verdict::touching;
+  result["clearance"] = out ? Json(found.most) : touching ? Json(0.0) : Json(nullptr);
+  result["clearance_enclosure"] = out        ? interval(found.least, found.most)
+                                  : touching ? interval(0, 0)
+                                             : Json(nullptr);
+  result["nearest_time"] = out ? Json(found.time) : Json(nullptr);
+  result["time_to_contact"] = met ? Json(found.time) : Json(nullptr);
+  result["time_enclosure"] = met ? interval(found.earliest, found.latest) : Json(nullptr);
+  if (found.verdict == Verdict::undecided)
+    result["undecided_between"] = interval(found.earliest, found.latest);
+  const auto vector = [](const std::optional<Eigen::Vector3d>& x) {
+    return x ? vector_json(*x) : Json(nullptr);
+  };
+  result["contact_point"] = vector(found.point);
+  result["contact_normal"] = vector(found.normal);
+  add_left_out(result, scene.obstacle);
+  return result;
+}
+
+double nearest_time(const Pair& pair, const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b) {
+  const auto *agent = pair.agent().body.quadric(), *obstacle = pair.obstacle().body.quadric();
+  if (!agent || !obstacle || pair.guarantee().exact || v_a == v_b) return pair.miss(v_a, v_b).time;
+  // Pair brackets the distance of these by ellipsoids, which may be nearest at another time.
+  const auto a = in_world(*agent, pair.agent().pose), b = in_world(*obstacle, pair.obstacle().pose);
+  const Eigen::Vector3d w = v_a - v_b;
+  if (!std::isfinite((b.center() - a.center()).squaredNorm()) || !std::isnormal(w.squaredNorm()))
+    return std::numeric_limits<double>::quiet_NaN();
+  return nearest_points(a, b, w, 0, std::numeric_limits<double>::infinity()).time;
 }
 
 const char* verdict_kind(const scenes::Scene& scene) {

@@ -23,7 +23,9 @@
 #include "cone/pieces_cone.h"
 #include "cone/planar_cone.h"
 #include "cone/quadric_cone.h"
+#include "cone/scene_certificate.h"
 #include "cone/verdict_text.h"
+#include "glb/scene_glb.h"
 #include "input/body.h"
 #include "input/stopwatch.h"
 #include "json/json_value.h"
@@ -174,15 +176,40 @@ void cone_of_scene(const ConeCommand& options, const scenes::Scene& scene, std::
   publish_cone(options, *folder, map.picture, picture.script, "engagement", out);
 }
 
+/// The answer as JSON, and what proves the verdict if that is wanted.
+Json with_certificate(const ConeCommand& options, const scenes::Scene& scene, const Json& id) {
+  std::ostringstream text;
+  cone_of_scene(options, scene, text);
+  Json result = Json::parse(text.str());
+  const bool named = id.is_string() || id.is_number();
+  if (options.certificate) add_scene_certificate(result, scene, named ? id.dump() : std::string());
+  return result;
+}
+
+void write_glb(const ConeCommand& options, const scenes::Scene& scene, std::ostream& out) {
+  write_whole(options.glb, glb::scene_glb(scene, answer(scene, false)));
+  if (!options.json) out << "glb                 " << options.glb << '\n';
+}
+
 }  // namespace
 
 int run_cone(const ConeCommand& options, std::ostream& out) {
   if (options.method != "exact" && options.method != "slice")
     throw InputError("--method", options.method, "slice or exact");
+  if (options.certificate && !options.json && !options.cases)
+    throw InputError("--certificate", "given alone",
+                     "given with --json or --cases: it is a part of the JSON");
   if (!options.cases) {
-    cone_of_scene(options, scenes::read_scene(options.scene), out);
+    const scenes::Scene scene = scenes::read_scene(options.scene);
+    if (options.certificate)
+      out << with_certificate(options, scene, {}).dump(1) << '\n';
+    else
+      cone_of_scene(options, scene, out);
+    if (!options.glb.empty()) write_glb(options, scene, out);
     return 0;
   }
+  if (!options.glb.empty())
+    throw InputError("--glb", options.glb, "left out with --cases: the file is of one scene");
   if (!options.picture_folder.empty())
     throw InputError("--out", options.picture_folder, "left out with --cases: pictures are of one scene");
   ConeCommand each = options;
@@ -190,9 +217,8 @@ int run_cone(const ConeCommand& options, std::ostream& out) {
   const std::filesystem::path folder =
       options.scene == "-" ? "" : std::filesystem::path(options.scene).parent_path();
   const auto answer = [&](const Json& value) {
-    std::ostringstream text;
-    cone_of_scene(each, input::read_engagement(value, input::Velocities::optional, {"id"}, folder), text);
-    return Json::parse(text.str());
+    const scenes::Scene scene = input::read_engagement(value, input::Velocities::optional, {"id"}, folder);
+    return with_certificate(each, scene, value.contains("id") ? value["id"] : Json());
   };
   return answer_cases(options.scene, answer, out);
 }
@@ -225,6 +251,11 @@ int cone_command(CommandLine& line) {
       .words(3, 3)
       .needs(map);
   line.flag("--json", cone.json, "Print JSON");
+  line.flag(
+      "--certificate", cone.certificate,
+      "Of JSON: add what proves the verdict, for programs that check it (docs/reference/certificates.md)");
+  line.option("--glb", cone.glb,
+              "File for bodies and cone as binary glTF, for viewers (docs/reference/formats.md)");
   line.option("--out,--picture", cone.picture_folder, "Folder for a picture of bodies and cones");
   line.negative_flag("--no-figures", cone.figures, "Of the picture, its data only");
   line.option("--threads", cone.threads, "Threads of map and picture, 0: one per processor");

@@ -29,6 +29,8 @@ struct ConeCommand {
   std::optional<double> tolerance;  // exact, certified to it; kDefaultTolerance for combined quadrics; pieces
   std::optional<MapRequest> map;
   bool json = false;
+  bool certificate = false;    // of the verdict, in the JSON
+  std::string glb;             // file for bodies and cone as GLB; empty: none
   std::string picture_folder;  // empty: no picture
   bool figures = true;         // false: only what a picture is drawn from
   int threads = 0;             // of map and picture; 0: one per processor

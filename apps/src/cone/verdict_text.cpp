@@ -2,10 +2,8 @@
 #include "cone/verdict_text.h"
 
 #include <vericone/cones/pair.h>
-#include <vericone/internal/cones/combined/nearest_points.h>
 #include <vericone/internal/scenes/words.h>
 #include <cmath>
-#include <limits>
 #include <ostream>
 
 #include "cone/answer.h"
@@ -27,18 +25,6 @@ void print_contact(const Contact& contact, bool planar, std::ostream& out) {
         << (planar ? "" : ", " + number_text(x.z())) << ") m";
   }
   out << '\n';
-}
-
-/// When they are nearest, seconds; nothing is proved of it.
-double nearest_time(const Pair& pair, const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b) {
-  const auto *agent = pair.agent().body.quadric(), *obstacle = pair.obstacle().body.quadric();
-  if (!agent || !obstacle || pair.guarantee().exact || v_a == v_b) return pair.miss(v_a, v_b).time;
-  // Pair brackets the distance of these by ellipsoids, which may be nearest at another time.
-  constexpr double kEver = std::numeric_limits<double>::infinity();
-  const Eigen::Vector3d w = v_a - v_b;
-  return nearest_points(in_world(*agent, pair.agent().pose), in_world(*obstacle, pair.obstacle().pose), w, 0,
-                        kEver)
-      .time;
 }
 
 }  // namespace

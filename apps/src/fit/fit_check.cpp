@@ -7,6 +7,8 @@
 #include <sstream>
 
 #include <vericone/fits/fit_files.h>
+#include <vericone/internal/fitting/solids.h>
+#include "fit/solid_json.h"
 #include "input/fields.h"
 #include "json/json_value.h"
 #include "output/output_file.h"
@@ -17,6 +19,7 @@ namespace {
 /// What a written result says of itself.
 struct Claim {
   std::vector<std::vector<Quadric>> pieces;
+  std::vector<fitting::Solid> solids;  // in place of pieces
   bool certified = false;
   double coverage = 1, margin = 0;
   std::size_t points = 0, points_inside = 0, triangles = 0, triangles_inside = 0, margins_inside = 0;
@@ -55,14 +58,27 @@ std::vector<Quadric> read_quadrics(const Json& piece, const std::string& path) {
   return quadrics;
 }
 
+/// Its body says what is proved; other pieces have quadrics.
+bool is_solid(const Json& piece) {
+  return piece.is_object() && piece.contains("quadrics") && piece["quadrics"].is_null();
+}
+
 Claim claim_of(const Json& json) {
   input::require_object(json, "the result");
   const Json& pieces = input::require_field(json, "", "pieces", "a list of pieces, each with quadrics");
   if (!pieces.is_array() || pieces.empty())
     throw InputError("pieces", input::quoted(pieces), "a list of pieces, each with quadrics");
   Claim claim;
-  for (std::size_t i = 0; i < pieces.size(); ++i)
-    claim.pieces.push_back(read_quadrics(pieces[i], input::at("pieces", i)));
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    const std::string path = input::at("pieces", i);
+    if (is_solid(pieces[i]))
+      claim.solids.push_back(
+          fit::solid_of(input::require_field(pieces[i], path, "body", "a body"), path + ".body"));
+    else
+      claim.pieces.push_back(read_quadrics(pieces[i], path));
+  }
+  if (!claim.pieces.empty() && !claim.solids.empty())
+    throw InputError("pieces", "some with quadrics", "all or none with quadrics");
   const Json& certified = input::require_field(json, "", "certified", "true or false");
   if (!certified.is_boolean()) throw InputError("certified", input::quoted(certified), "true or false");
   claim.certified = certified.get<bool>();
@@ -78,6 +94,11 @@ Claim claim_of(const Json& json) {
   claim.triangles_inside = read_count(certificate, "triangles_inside");
   claim.margins_inside = read_count(certificate, "margins_inside");
   return claim;
+}
+
+fitting::Certificate found_of(const Claim& claim, const fitting::Sample& sample) {
+  return claim.solids.empty() ? fitting::check(claim.pieces, sample, claim.margin)
+                              : fitting::check(claim.solids, sample, claim.margin);
 }
 
 bool holds(const Claim& claim, const fitting::Certificate& found) {
@@ -118,10 +139,12 @@ int check_fit(const std::string& file, const std::string& result, const std::str
     }
   }();
   const fits::Scan scan = fits::read_scan(file);
-  const fitting::Certificate found = fitting::check(claim.pieces, scan.sample, claim.margin);
+  const fitting::Certificate found = found_of(claim, scan.sample);
   const bool good = holds(claim, found);
   fitting::InsideCertificate proved;
-  if (!certificate.empty()) proved = fitting::inside_certificate(claim.pieces, scan.sample);
+  if (!certificate.empty())
+    proved = claim.solids.empty() ? fitting::inside_certificate(claim.pieces, scan.sample)
+                                  : fitting::inside_certificate(claim.solids, scan.sample);
   if (!proved.text.empty()) write_whole(certificate, proved.text + "\n");
   if (json) {
     Json answer = found_json(claim, found);

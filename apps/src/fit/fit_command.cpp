@@ -12,6 +12,10 @@
 #include "fit/fit_json.h"
 #include "fit/fit_picture.h"
 #include "fit/fit_text.h"
+#include "fit/robot_check.h"
+#include "fit/robot_command.h"
+#include "fit/robot_shapes.h"
+#include "fit/solid_command.h"
 #include "fit/write_fit.h"
 #include "input/stopwatch.h"
 #include "json/json_value.h"
@@ -37,7 +41,8 @@ std::optional<fitting::Shape> shape_of(const std::string& text) {
   if (text == "auto") return std::nullopt;
   for (const auto shape : {ellipse, ellipsoid, biconcave, biconvex, star})
     if (fitting::to_string(shape) == text) return shape;
-  throw InputError("--shape", text, "ellipse, ellipsoid, biconcave, biconvex, star or auto");
+  throw InputError("--shape", text,
+                   "ellipse, ellipsoid, biconcave, biconvex, star, sphere, capsule, cylinder, box or auto");
 }
 
 fitting::FitOptions fit_options(const FitCommandOptions& given, Progress& progress) {
@@ -83,13 +88,6 @@ bool succeeded(const fitting::FitResult& result, const FitCommandOptions& given)
 /// The part of a path that the user knows it by.
 std::string shown(const fs::path& folder, const fs::path& file) {
   return (folder / file.filename()).string();
-}
-
-const std::vector<std::string>& names_of_files() {
-  static const std::vector<std::string> names{
-      "fit.json", "body.yaml", "hull.obj",       "hull.ply",      "provenance.json", "fit_picture.json",
-      "fit.png",  "fit.pdf",   "fit_cones.json", "fit_cones.png", "fit_cones.pdf"};
-  return names;
 }
 
 struct Answer {
@@ -150,17 +148,30 @@ void print(const Answer& a, const FitCommandOptions& given, const std::vector<fs
   }
   fit::print_fit(a.scan, a.result, a.seconds, out);
   if (a.cones) print_cones(*a.cones, out);
-  const fs::path folder = given.out;
+  print_written(given.out, files, out);
+}
+
+}  // namespace
+
+const std::vector<std::string>& names_of_fit_files() {
+  static const std::vector<std::string> names{
+      "fit.json", "body.yaml", "hull.obj",       "hull.ply",      "provenance.json", "fit_picture.json",
+      "fit.png",  "fit.pdf",   "fit_cones.json", "fit_cones.png", "fit_cones.pdf"};
+  return names;
+}
+
+void print_written(const std::string& folder, const std::vector<fs::path>& files, std::ostream& out) {
   out << "written             " << shown(folder, "fit.json") << ", " << shown(folder, "body.yaml") << ", "
       << shown(folder, "hull.obj") << ", " << shown(folder, "hull.ply") << '\n';
   for (const fs::path& file : pictures_of(files))
     out << "picture             " << shown(folder, file) << '\n';
 }
 
-}  // namespace
-
 int run_fit(const FitCommandOptions& given, std::ostream& out) {
+  if (!given.check.empty() && is_robot_file(given.check)) return check_robot(given, out);
   if (!given.check.empty()) return check_fit(given.file, given.check, given.certificate, given.json, out);
+  if (!given.urdf.empty() || !given.sdf.empty()) return run_robot_fit(given, out);
+  if (const auto kinds = solid_kinds(given); !kinds.empty()) return run_solid_fit(given, kinds, out);
   work::StagedFolder folder(given.out, "--out");
   try {
     std::vector<fs::path> files;
@@ -170,7 +181,7 @@ int run_fit(const FitCommandOptions& given, std::ostream& out) {
       a = answer_of(given, progress);
       write_files(a, given, folder, progress);
     }
-    files = folder.publish(names_of_files());
+    files = folder.publish(names_of_fit_files());
     print(a, given, files, out);
     return succeeded(a.result, given) ? 0 : 1;
   } catch (const Interrupted&) {

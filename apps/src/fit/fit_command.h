@@ -2,9 +2,11 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <iosfwd>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "command/default_seed.h"
 #include "output/output_options.h"
@@ -14,8 +16,11 @@ namespace vericone {
 struct FitCommandOptions : OutputOptions {
   FitCommandOptions() { out = "out/fit"; }
   std::string file;
-  std::string mode = "containing";  // or "least-squares", "robust"
-  std::string shape = "auto";       // or the name of one
+  std::string mode = "containing";    // or "least-squares", "robust"
+  std::string shape = "auto";         // or the name of one
+  std::string kinds;                  // of solids, with commas; empty: `shape` says it
+  std::string urdf, sdf;              // the robot again, with other collisions; empty: no robot
+  std::vector<std::string> packages;  // NAME=FOLDER
   std::optional<double> coverage;
   double margin = 0;  // metres
   int pieces = 1;
@@ -31,5 +36,12 @@ struct FitCommandOptions : OutputOptions {
 /// not converged, and of a check where it fails; 130 interrupted. Throws InputError naming the file or an
 /// option.
 int run_fit(const FitCommandOptions& options, std::ostream& out);
+
+/// What a folder of a fit may have.
+const std::vector<std::string>& names_of_fit_files();
+
+/// The rows of a fit's table that name its files.
+void print_written(const std::string& folder, const std::vector<std::filesystem::path>& files,
+                   std::ostream& out);
 
 }  // namespace vericone

@@ -16,14 +16,18 @@ Json footprint_json(const fitting::Piece& piece) {
   return {{"center", vector_json(e.center())}, {"factor", rows}, {"low", piece.low}, {"high", piece.high}};
 }
 
+Json scan_picture(const fitting::Sample& sample, const std::string& title) {
+  const Assembly pieces =
+      sample.is_mesh() ? Assembly::mesh(sample.points, sample.triangles) : Assembly::cloud(sample.points, 0);
+  return {{"title", title}, {"scan", shown_pieces(pieces, {})}};
+}
+
 }  // namespace
 
 Json fit_picture(const fits::Scan& scan, const fitting::FitResult& result,
                  const std::vector<CombinedSurface>& surfaces, const std::string& title) {
   const fitting::Sample& sample = scan.sample;
-  const Assembly pieces =
-      sample.is_mesh() ? Assembly::mesh(sample.points, sample.triangles) : Assembly::cloud(sample.points, 0);
-  Json data{{"title", title}, {"scan", shown_pieces(pieces, {})}};
+  Json data = scan_picture(sample, title);
   Json hull = Json::array(), touching = Json::array();
   for (std::size_t i = 0; i < surfaces.size(); ++i) {
     const fitting::Piece& piece = result.pieces[i];
@@ -37,6 +41,16 @@ Json fit_picture(const fits::Scan& scan, const fitting::FitResult& result,
     for (const std::size_t i : result.certificate.touching) touching.push_back(vector_json(sample.points[i]));
   data["hull"] = hull;
   data["touching"] = touching;
+  return data;
+}
+
+Json solid_picture(const fits::Scan& scan, const std::vector<CombinedSurface>& surfaces,
+                   const std::vector<Eigen::Vector3d>& touching, const std::string& title) {
+  Json data = scan_picture(scan.sample, title);
+  data["hull"] = Json::array();
+  for (const CombinedSurface& surface : surfaces) data["hull"].push_back({{"mesh", mesh_json(surface)}});
+  data["touching"] = Json::array();
+  for (const Eigen::Vector3d& x : touching) data["touching"].push_back(vector_json(x));
   return data;
 }
 

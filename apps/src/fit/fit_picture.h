@@ -13,4 +13,8 @@ namespace vericone::fit {
 Json fit_picture(const fits::Scan& scan, const fitting::FitResult& result,
                  const std::vector<CombinedSurface>& surfaces, const std::string& title);
 
+/// The same of solids, and the points that touch them.
+Json solid_picture(const fits::Scan& scan, const std::vector<CombinedSurface>& surfaces,
+                   const std::vector<Eigen::Vector3d>& touching, const std::string& title);
+
 }  // namespace vericone::fit

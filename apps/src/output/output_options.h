@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 namespace vericone {
 
@@ -10,7 +11,9 @@ struct OutputOptions {
   std::string out;  // folder
   int threads = 0;  // 0: one per processor
   bool figures = true, quiet = false, json = false;
-  std::string command_line;  // for provenance
+  std::string command_line;        // for provenance
+  std::vector<std::string> words;  // of it, from the command's name on
+  std::string part;                // K/N: of each table these rows alone; output/part.h
 };
 
 }  // namespace vericone

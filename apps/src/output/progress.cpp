@@ -7,6 +7,7 @@
 #include <optional>
 #include <ostream>
 
+#include "output/part.h"
 #include "work/interrupt.h"
 
 namespace vericone {
@@ -79,16 +80,17 @@ void Progress::finish() {
 }
 
 bool run_with_bar(work::ResumableTable table, work::StagedFolder& folder, const std::string& label,
-                  bool quiet, const std::string& given, std::ostream& out) {
-  Bar bar(label, table.count, quiet);
+                  const OutputOptions& options, std::ostream& out) {
+  if (const auto part = part_of(options)) table = rows_of_part(std::move(table), *part);
+  Bar bar(label, table.count - table.first, options.quiet);
   std::uint64_t done = 0;
-  table.progress = [&](std::uint64_t rows) {
-    bar.show(done = rows, false);
+  table.progress = [&](std::uint64_t next) {
+    bar.show(done = next - table.first, false);
     return !interrupted();
   };
   const bool finished = run_table(table, folder);
   bar.show(done, true);
-  if (!finished) out << "interrupted; the same command goes on where it stopped (" << given << ")\n";
+  if (!finished) out << "interrupted; the same command goes on where it stopped (" << options.out << ")\n";
   return finished;
 }
 

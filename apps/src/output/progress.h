@@ -5,6 +5,7 @@
 #include <iosfwd>
 #include <string>
 
+#include "output/output_options.h"
 #include "work/resumable_table.h"
 
 namespace vericone {
@@ -29,9 +30,9 @@ class Progress {
   std::chrono::steady_clock::time_point last_;
 };
 
-/// Fills a table with a bar on standard error, called `label`. False where an interruption came first; a line
-/// on `out` then says how to go on in the folder, which was given as `given`.
+/// Fills a table, or the part of it that was asked for, with a bar on standard error, called `label`. False
+/// where an interruption came first; a line on `out` then says how to go on.
 bool run_with_bar(work::ResumableTable table, work::StagedFolder& folder, const std::string& label,
-                  bool quiet, const std::string& given, std::ostream& out);
+                  const OutputOptions& options, std::ostream& out);
 
 }  // namespace vericone

@@ -3,6 +3,7 @@
 // The program `vericone-pursue`, which links OpenCV (Apache-2.0) and its codecs.
 #include <iostream>
 
+#include "command/output_line.h"
 #include "command/program.h"
 #include "json/json_value.h"
 #include "output/schemas.h"
@@ -29,13 +30,14 @@ int pursue_command(vericone::CommandLine& line) {
   line.option("--random", pursue.random,
               "In place of one run: so many short ones, each with one vehicle hidden for 3 s")
       .within(0, 100'000);
+  vericone::part_option(line, pursue);
   line.option("--out", pursue.out, "Folder for tables and pictures");
   line.option("--threads", pursue.threads, "Of --starts and --random; 0: one per processor");
   line.negative_flag("--no-figures", pursue.figures, "Tables only");
   line.flag("--quiet", pursue.quiet, "No progress");
   line.flag("--json", pursue.json, "Print JSON");
   line.read();
-  pursue.command_line = line.text();
+  vericone::keep_words(line, pursue);
   return vericone::pursuit::run_pursue(pursue, std::cout);
 }
 

@@ -15,6 +15,7 @@
 #include "output/figures.h"
 #include "output/number_text.h"
 #include "output/output_file.h"
+#include "output/part.h"
 #include "output/progress.h"
 #include "simulate/csv_row.h"
 #include "work/file_hash.h"
@@ -63,10 +64,10 @@ double quantile(std::vector<double> values, double share) {
 
 int finish(work::StagedFolder& folder, const PursueOptions& options, Json summary, const std::string& script,
            int threads, double seconds, const std::string& text, std::ostream& out) {
-  summary["seconds"] = seconds;
   write_whole(folder.path() / "summary.json", summary.dump(1) + "\n");
-  write_whole(folder.path() / "provenance.json",
-              provenance(options.command_line, threads, {options.scenario}).dump(1) + "\n");
+  Json origin = provenance(options.command_line, threads, {options.scenario});
+  origin["seconds"] = seconds;
+  write_whole(folder.path() / "provenance.json", origin.dump(1) + "\n");
   if (options.figures) draw_figures(script, folder.path());
   const std::vector<fs::path> files =
       folder.publish({"starts.png", "starts.pdf", "occlusions.png", "occlusions.pdf"});
@@ -210,7 +211,10 @@ int run_starts(const Pursuit& pursuit, const PursueOptions& options, std::ostrea
     row.pop_back();
     return row;
   };
-  if (!run_with_bar(table, folder, "starts", options.quiet, options.out, out)) return kExitInterrupted;
+  if (!run_with_bar(table, folder, "starts", options, out)) return kExitInterrupted;
+  if (!options.part.empty())
+    return publish_part(options, folder, {table},
+                        provenance(options.command_line, table.threads, {options.scenario}), out);
   const simulation::Table rows = read_table(folder.resumable(table.name));
   const std::vector<double>& means = rows.find("mean_r")->numbers;
   Json summary{{"settings", table.settings},
@@ -244,7 +248,10 @@ int run_random(const Pursuit& pursuit, const PursueOptions& options, std::ostrea
   table.block = 2;
   table.threads = threads_for(options.threads);
   table.row = [&](std::uint64_t i) { return occlusion_row(pursuit, i); };
-  if (!run_with_bar(table, folder, "runs", options.quiet, options.out, out)) return kExitInterrupted;
+  if (!run_with_bar(table, folder, "runs", options, out)) return kExitInterrupted;
+  if (!options.part.empty())
+    return publish_part(options, folder, {table},
+                        provenance(options.command_line, table.threads, {options.scenario}), out);
   constexpr double kSoon = 0.5, kFrames = 3;  // s; pictures
   const simulation::Table rows = read_table(folder.resumable(table.name));
   const auto &regained = rows.find("regained")->numbers, &said = rows.find("said")->numbers,

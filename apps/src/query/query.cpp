@@ -5,12 +5,16 @@
 #include <iostream>
 #include <ostream>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "command/cases.h"
 #include "commands.h"
 #include "cone/answer.h"
 #include "input/body.h"
 #include "input/errors.h"
+#include "input/motions.h"
+#include "input/scene.h"
 #include "json/json_value.h"
 #include "work/threads.h"
 
@@ -51,11 +55,36 @@ struct Wanted {
   bool rung = false, certificate = false;
 };
 
-Json answer_case(const Json& value, const Wanted& wanted, const std::filesystem::path& folder) {
+/// Where cases and the scene of --scene differ.
+struct Source {
+  std::filesystem::path folder;
+  input::Velocities velocities = input::Velocities::required;
+  std::vector<std::string_view> also = {};
+};
+
+Json answer_of_motions(const Json& value, const scenes::Scene& scene, const input::MotionsGiven& given,
+                       const Horizon& horizon, const Wanted& wanted) {
+  for (const char* field : {"position_error", "velocity_error"})
+    if (value.contains(field))
+      throw InputError(field, input::quoted(value[field]), "left out beside spin, acceleration or braking");
+  const input::Motions motions = input::read_motions(given, scene);
+  Json result = motion_answer(scene, motions.agent, motions.obstacle, horizon, wanted.rung);
+  if (wanted.certificate) {
+    result["certificate"] = nullptr;
+    result["no_certificate"] = "bodies that spin, accelerate or brake: certificates are of straight motion";
+  }
+  return result;
+}
+
+Json answer_case(const Json& given, const Wanted& wanted, const Source& source) {
+  Json value = given;
+  const auto motions = input::take_motions(value);
   const Horizon horizon = input::read_horizon(value);
   const auto errors = input::read_errors(value, horizon);
-  const scenes::Scene scene = input::read_engagement(
-      value, input::Velocities::required, {"id", "position_error", "velocity_error", "horizon"}, folder);
+  std::vector<std::string_view> also{"id", "position_error", "velocity_error", "horizon"};
+  also.insert(also.end(), source.also.begin(), source.also.end());
+  const scenes::Scene scene = input::read_engagement(value, source.velocities, also, source.folder);
+  if (motions) return answer_of_motions(value, scene, *motions, horizon, wanted);
   if (errors && scene.planar)
     throw InputError("position_error, velocity_error", "given for bodies in the plane",
                      "left out, or the bodies in space");
@@ -68,9 +97,19 @@ Json answer_case(const Json& value, const Wanted& wanted, const std::filesystem:
 /// `vericone query`: one engagement a line in, one answer a line out, in the same order
 /// (docs/reference/formats.md). Returns the exit status: 0, or 2 if any line was bad.
 int run_query(const std::string& path, const Wanted& wanted, int threads, std::ostream& out) {
-  const std::filesystem::path folder = path == "-" ? "" : std::filesystem::path(path).parent_path();
+  const Source source{path == "-" ? "" : std::filesystem::path(path).parent_path()};
   return answer_cases(
-      path, [&](const Json& value) { return answer_case(value, wanted, folder); }, out, threads);
+      path, [&](const Json& value) { return answer_case(value, wanted, source); }, out, threads);
+}
+
+/// The same of one scene, YAML.
+int run_query_of_scene(const std::string& path, const Wanted& wanted, std::ostream& out) {
+  const Json fields = input::read_scene_fields(path);
+  input::require_kind(fields, input::FileKind::scene, path);
+  const Source source{std::filesystem::path(path).parent_path(), input::Velocities::optional,
+                      input::scene_file_fields().names()};
+  out << answer_case(fields, wanted, source).dump() << '\n';
+  return 0;
 }
 
 }  // namespace
@@ -80,6 +119,8 @@ int query_command(CommandLine& line) {
   Wanted wanted;
   line.option("cases", cases, "File of cases, or - for standard input").required();
   int threads = 0;
+  bool scene = false;
+  line.flag("--scene", scene, "The file is one scene, YAML; a horizon may stand in it");
   line.flag("--rung", wanted.rung, "Add the rung of the ladder that decided: triage, interval or exact");
   line.flag("--certificate", wanted.certificate,
             "Add what proves the verdict, for programs that check it (docs/reference/certificates.md)");
@@ -88,6 +129,7 @@ int query_command(CommandLine& line) {
   line.flag("--json", json, "Print JSON; this command prints nothing else");
   line.quiet();
   line.read();
+  if (scene) return run_query_of_scene(cases, wanted, std::cout);
   return run_query(cases, wanted, threads_for(threads), std::cout);
 }
 

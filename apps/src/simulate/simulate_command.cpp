@@ -14,6 +14,7 @@
 #include "output/output_file.h"
 #include "output/output_options.h"
 #include "output/progress.h"
+#include "scenarios/pictures/run_glb.h"
 #include "scenarios/read_scenario.h"
 #include "scenarios/run_json.h"
 #include "simulate/run_text.h"
@@ -30,13 +31,14 @@ struct SimulateOptions : OutputOptions {
   std::string scenario;
   bool animate = false;  // also a page that shows the run over time
   bool certificate = false;
+  bool glb = false;  // also the run for viewers of glTF
 };
 
 const std::vector<std::string>& names_of_files() {
-  static const std::vector<std::string> names{"bodies.csv",     "encounters.csv",  "planes.csv",
-                                              "events.csv",     "proof.json",      "shapes.json",
-                                              "run.json",       "scenario.yaml",   "simulation.png",
-                                              "simulation.pdf", "simulation.html", "certificate.json"};
+  static const std::vector<std::string> names{
+      "bodies.csv",      "encounters.csv",   "planes.csv",    "events.csv",     "proof.json",
+      "shapes.json",     "run.json",         "scenario.yaml", "simulation.png", "simulation.pdf",
+      "simulation.html", "certificate.json", "simulation.glb"};
   return names;
 }
 
@@ -104,6 +106,7 @@ int run_simulate(const SimulateOptions& options, std::ostream& out) {
     scenario::write_run(scenario, *run, origin, folder.path());
     if (certificates && !certificates->made.empty())
       write_whole(folder.path() / "certificate.json", lines_of(*certificates));
+    if (options.glb) write_whole(folder.path() / "simulation.glb", scenario::run_glb(scenario, *run));
     if (options.figures || options.animate) progress.show("drawing", 0);
     if (options.figures) draw_figures("simulation.py", folder.path());
     if (options.animate) draw_figures("animation.py", folder.path());
@@ -134,6 +137,8 @@ int simulate_command(CommandLine& line) {
   line.flag("--certificate", simulate.certificate,
             "Also what proves that bodies stay apart, certificate.json, for programs that check it "
             "(docs/reference/certificates.md)");
+  line.flag("--glb", simulate.glb,
+            "Also the run as simulation.glb, animated binary glTF for viewers (docs/reference/scenarios.md)");
   line.flag("--quiet", simulate.quiet, "No progress");
   line.flag("--json", simulate.json, "Print JSON");
   line.read();

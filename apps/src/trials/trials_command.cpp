@@ -15,13 +15,16 @@
 #include <ostream>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "command/output_line.h"
 #include "commands.h"
 #include "input/stopwatch.h"
 #include "json/json_value.h"
 #include "output/output_file.h"
 #include "output/output_options.h"
+#include "output/part.h"
 #include "output/progress.h"
 #include "output/results.h"
 #include "scenarios/read_scenario.h"
@@ -268,6 +271,8 @@ int run_trials(const TrialsOptions& given, std::ostream& out) {
   const Scenario scenario = scenario::read_scenario(given.scenario);
   const TrialsOptions options = complete(given, scenario);
   const std::vector<Cell> cells = cells_of(options, scenario);
+  if (options.trial && !options.part.empty())
+    throw InputError("--part", options.part, "left out with --trial");
   if (options.trial) return print_one(options, cells, out);
   work::StagedFolder folder(options.out, "--out");
   const auto start = Clock::now();
@@ -281,18 +286,19 @@ int run_trials(const TrialsOptions& given, std::ostream& out) {
   table.threads = threads_for(options.threads);
   table.block = 10;
   table.row = [&](std::uint64_t i) { return row_of(cells, i, options.random); };
-  if (!run_with_bar(table, folder, "trials", options.quiet, options.out, out)) return kExitInterrupted;
-  const double seconds = seconds_since(start);
+  if (!run_with_bar(table, folder, "trials", options, out)) return kExitInterrupted;
+  Json origin = provenance(options.command_line, table.threads, {options.scenario});
+  origin["seconds"] = seconds_since(start);
+  if (!options.part.empty()) return publish_part(options, folder, {table}, std::move(origin), out);
   const std::vector<Found> found = read_rows(folder.resumable(table.name), cells);
   Results results{.summary = to_json(found, options.trials),
-                  .origin = provenance(options.command_line, table.threads, {options.scenario}),
+                  .origin = std::move(origin),
                   .scripts = {"trials.py"},
                   .summary_file = "trials.json",
                   .files = {table.name, "trials.json"},
                   .old = {"trials.pdf", "trials.png"}};
   results.summary["scenario"] = scenario.name;
   results.summary["settings"] = table.settings;
-  results.summary["seconds"] = seconds;
   std::ostringstream text;
   print(found, options.trials, text);
   if (!noisy(cells)) text << "no pilot has a sensor: all trials are the same flight\n";
@@ -325,13 +331,14 @@ int trials_command(CommandLine& line) {
   line.option("--trial", trials.trial, "This trial alone, printed");
   line.flag("--random", trials.random,
             "Another random engagement each trial, in place of the scenario's bodies");
+  part_option(line, trials);
   line.option("--out", trials.out, "Folder for tables and picture");
   line.option("--threads", trials.threads, "Threads, 0: one per processor");
   line.negative_flag("--no-figures", trials.figures, "Tables only");
   line.flag("--quiet", trials.quiet, "No progress");
   line.flag("--json", trials.json, "Print JSON");
   line.read();
-  trials.command_line = line.text();
+  keep_words(line, trials);
   return vericone::trials::run_trials(trials, std::cout);
 }
 

@@ -46,7 +46,11 @@ void Stated::take(const HullBody& body, const Pose& pose) {
 }
 
 void Stated::take(const vericone::Convex& body, const Pose& pose) {
-  has_words_ = body.is_hull();
+  if (!body.is_hull()) {
+    kind_ = Kind::convex;
+    convexes_.push_back(is_upright(pose) ? body : in_world(body, pose));
+    return;
+  }
   std::vector<Vector3d> points;
   for (const auto& piece : body.pieces()) points.push_back(piece.center);
   take(HullBody(std::move(points)), pose);
@@ -65,7 +69,7 @@ void Stated::take(const Assembly& body, const Pose& pose) {
   const Assembly::Storage& storage = body.by_slot();
   const auto order = body.hierarchy().order();
   const auto in_order = [&](const auto& by_slot, auto& list) {
-    list.resize(by_slot.size());
+    list.assign(by_slot.begin(), by_slot.end());
     for (std::size_t slot = 0; slot < by_slot.size(); ++slot) list[order[slot]] = by_slot[slot];
   };
   switch (body.kind()) {
@@ -82,7 +86,8 @@ void Stated::take(const Assembly& body, const Pose& pose) {
       in_order(storage.hulls, hulls_);
       break;
     case PieceKind::convex:
-      has_words_ = false;
+      kind_ = Kind::convexes;
+      in_order(storage.convexes, convexes_);
       break;
     case PieceKind::box:
       kind_ = rounded_ ? Kind::hulls : Kind::boxes;
@@ -94,6 +99,7 @@ void Stated::take(const Assembly& body, const Pose& pose) {
   if (!rounded_) return;
   for (Vector3d& x : points_) x = pose.to_world(x);
   for (HullBody& hull : hulls_) hull = in_world(hull, pose);
+  for (vericone::Convex& convex : convexes_) convex = in_world(convex, pose);
 }
 
 /// Each point once.
@@ -140,6 +146,10 @@ Piece Stated::piece(std::size_t i) const {
     case Kind::hulls:
       piece.corners = hulls_[i].points();
       break;
+    case Kind::convex:
+    case Kind::convexes:
+      piece.convex = &convexes_[i];
+      break;
   }
   return piece;
 }
@@ -184,6 +194,21 @@ void Stated::write_quadric(Text& text, const CombinedEllipsoid& body) const {
   text.raw("]");
 }
 
+void Stated::write_convex(Text& text, const vericone::Convex& body) const {
+  text.raw("{\"kind\": \"convex\"");
+  write_center(text, Vector3d::Zero());
+  const char* between = ", \"parts\": [{";
+  for (const auto& part : body.pieces()) {
+    text.raw(between).raw("\"center\": ").number(part.center);
+    if (part.rank > 0)
+      write_matrix(text.raw(part.shape ? ", \"shape\": " : ", \"factor\": "),
+                   part.shape ? *part.shape : part.factor);
+    between = "}, {";
+  }
+  text.raw("}]");
+  if (body.margin() > 0) text.raw(", \"margin\": ").number(body.margin());
+}
+
 void Stated::write(Text& text, const Vector3d* velocity) const {
   const auto pieces = [&](std::size_t count, const auto& write_piece) {
     text.raw("{\"kind\": \"union\", \"pieces\": [");
@@ -200,6 +225,12 @@ void Stated::write(Text& text, const Vector3d* velocity) const {
       break;
     case Kind::quadrics:
       pieces(quadrics_.size(), [&](std::size_t i) { write_quadric(text, quadrics_[i]); });
+      break;
+    case Kind::convex:
+      write_convex(text, convexes_.front());
+      break;
+    case Kind::convexes:
+      pieces(convexes_.size(), [&](std::size_t i) { write_convex(text, convexes_[i]); });
       break;
     case Kind::hulls:
       pieces(hulls_.size(), [&](std::size_t i) {

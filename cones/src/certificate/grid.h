@@ -118,6 +118,9 @@ struct Plane {
     Integer a, b;
   };
   std::optional<Across> across = {};
+  /// Not below n.x of the agent, not above n.x of the obstacle, at t = 0, metres; where the format wants
+  /// them.
+  std::optional<std::pair<Rational, Rational>> levels = {};
 };
 
 /// A point of both bodies, point / 2^finer on the grid, at a time, strictly inside of one.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "certificate/pieces.h"
 
+#include "certificate/convex_pair.h"
 #include "certificate/ellipsoids.h"
 #include "certificate/polytopes.h"
 
@@ -70,6 +71,36 @@ void write_crossing(Text& text, const Crossing& crossing) {
   text.raw("]");
 }
 
+template <typename Of>
+auto ask_convex(const PairOfPieces& pair, const Of& of) {
+  const Question& question = pair.question;
+  const RoundedHull agent = rounded_hull(pair.a, question.agent.at()),
+                    obstacle = rounded_hull(pair.b, question.obstacle.at());
+  return of(ConvexPair(agent, obstacle, question.v_a, question.v_b, question.horizon));
+}
+
+/// How the parts of a piece make up the point; of round ones it is seen without.
+void write_mean(Text& text, const char* field, const Piece& piece, const Mean& mean) {
+  if (piece.round()) return;
+  const char* between = "\": [[";
+  text.raw(", \"").raw(field);
+  for (const Share& share : mean.shares) {
+    text.raw(between).index(share.part).raw(", ").number(share.weight);
+    if (!is_zero(share.along)) write(text.raw(", "), share.along);
+    text.raw("]");
+    between = ", [";
+  }
+  text.raw("]");
+}
+
+void write_common(Text& text, const PairOfPieces& pair, const CommonPoint& at) {
+  write(text.raw(", \"time\": ").number(at.time).raw(", \"point\": "), at.point);
+  write_mean(text, "agent_weights", pair.a, at.agent);
+  write_mean(text, "obstacle_weights", pair.b, at.obstacle);
+  write_pieces(text, pair);
+  text.raw("}");
+}
+
 }  // namespace
 
 int PairOfPieces::grid() const {
@@ -77,6 +108,8 @@ int PairOfPieces::grid() const {
                               grid_of(question.obstacle.at()), grid_of(question.v_a), grid_of(question.v_b)});
   return least == kNoGrid ? 0 : least;
 }
+
+bool PairOfPieces::has_convex() const { return a.convex || b.convex; }
 
 bool PairOfPieces::has_dents() const {
   for (const Piece* piece : {&a, &b})
@@ -86,17 +119,23 @@ bool PairOfPieces::has_dents() const {
 
 void write(Text& text, const Plane& plane) {
   text.raw("{\"rule\": \"plane\", ");
-  if (!plane.across) {
-    text.raw("\"n\": ").number(plane.normal).raw("}");
-    return;
+  if (plane.across) {
+    const auto& [k, a, b] = *plane.across;
+    // The two other axes in rising order.
+    text.raw("\"across_w\": [").index(static_cast<std::size_t>(k)).raw(", ");
+    text.number(k == 1 ? b : a).raw(", ").number(k == 1 ? a : b).raw("]");
+  } else {
+    text.raw("\"n\": ").number(plane.normal);
   }
-  const auto& [k, a, b] = *plane.across;
-  // The two other axes in rising order.
-  text.raw("\"across_w\": [").index(static_cast<std::size_t>(k)).raw(", ");
-  text.number(k == 1 ? b : a).raw(", ").number(k == 1 ? a : b).raw("]}");
+  if (plane.levels) {
+    text.raw(", \"agent_at_most\": ").number(plane.levels->first);
+    text.raw(", \"obstacle_at_least\": ").number(plane.levels->second);
+  }
+  text.raw("}");
 }
 
 std::optional<Plane> plane_between(const PairOfPieces& pair) {
+  if (pair.has_convex()) return ask_convex(pair, [](const ConvexPair& of) { return of.plane(); });
   const auto plane = [](const auto& of, int) { return of.plane(); };
   return ask(pair, plane, plane);
 }
@@ -108,6 +147,16 @@ bool prove_out(const PairOfPieces& pair, Text& proof) {
 }
 
 bool prove_in(const PairOfPieces& pair, Text& proof) {
+  if (pair.has_convex()) {
+    const auto deep = ask_convex(pair, [](const ConvexPair& of) { return of.meeting(); });
+    if (!deep || pair.has_dents()) return false;
+    proof.raw("{\"rule\": \"point\", \"inside\": ");
+    proof.raw(deep->inside == DeepPoint::Inside::agent      ? "\"agent\""
+              : deep->inside == DeepPoint::Inside::obstacle ? "\"obstacle\""
+                                                            : "\"both\"");
+    write_common(proof, pair, *deep);
+    return true;
+  }
   const bool found = ask(
       pair,
       [&](const EllipsoidPair& of, int grid) {
@@ -135,6 +184,13 @@ bool prove_in(const PairOfPieces& pair, Text& proof) {
 }
 
 bool prove_on(const PairOfPieces& pair, Text& proof) {
+  if (pair.has_convex()) {
+    const auto touch = ask_convex(pair, [](const ConvexPair& of) { return of.touch(); });
+    if (!touch || pair.has_dents()) return false;
+    proof.raw("{\"rule\": \"touch\", \"n\": ").number(touch->normal);
+    write_common(proof, pair, touch->at);
+    return true;
+  }
   const bool found = ask(
       pair,
       [&](const EllipsoidPair& of, int grid) {

@@ -19,6 +19,8 @@ struct PairOfPieces {
 
   [[nodiscard]] int grid() const;
   [[nodiscard]] bool has_dents() const;
+  /// Whether one has flat, round and straight parts.
+  [[nodiscard]] bool has_convex() const;
 };
 
 // Each writes a proof; false where none was found.

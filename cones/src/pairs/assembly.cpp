@@ -4,11 +4,13 @@
 #include <vericone/internal/cones/assembly/assembly_sectors.h>
 #include <vericone/internal/cones/hulls/hull_sectors.h>
 #include <vericone/internal/cones/round/round_oracle.h>
+#include <algorithm>
 #include <cmath>
 #include <type_traits>
 
 #include "assembly/passing.h"
 #include "pairs/cones.h"
+#include "pairs/tight_plane.h"
 
 namespace vericone::pairs {
 namespace {
@@ -169,7 +171,8 @@ class Convexes : public AssemblyFamily {
  public:
   Convexes(const Standing<Convex>& agent, const Standing<Convex>& obstacle)
       : AssemblyFamily(agent, Assembly::convexes({obstacle.body}), Pose{obstacle.at}),
-        convexes_(agent.body, obstacle.body, agent.at, obstacle.at) {
+        convexes_(agent.body, obstacle.body, agent.at, obstacle.at),
+        plane_(agent.body, agent.at, obstacle.body, obstacle.at) {
     axis_ = (middle(obstacle.body) + obstacle.at) - (middle(agent.body) + agent.at);
   }
 
@@ -206,7 +209,11 @@ class Convexes : public AssemblyFamily {
   }
   double gap(const Vector3d& n) const override { return convexes_.gap(n); }
   std::optional<NearestPlane> nearest_plane(const Vector3d& start, const Vector3d& end) const override {
-    return oracle_->nearest_plane(start, end);
+    if (const auto found = oracle_->nearest_plane(start, end)) return plane_.tightened(*found, start, end);
+    if (start.isZero(0) && relation() == Relation::disjoint)
+      if (const auto contact = convexes_.first_contact(end); contact && contact->latest < 1)
+        return std::nullopt;
+    return plane_.found(start, end);
   }
   std::optional<Rung> rung(const Vector3d& v_a, const Vector3d& v_b) const override {
     Rung rung = convexes_.relation_rung();
@@ -221,6 +228,7 @@ class Convexes : public AssemblyFamily {
   }
 
   RoundOracle convexes_;
+  TightPlane plane_;
 };
 
 }  // namespace

@@ -22,13 +22,24 @@ struct Format {
 };
 
 constexpr Format kFormats[] = {
-    {".asc", false, nullptr, parse_xyz},       {".bin", false, nullptr, parse_kitti},
-    {".csv", false, nullptr, parse_xyz},       {".graph", true, looks_like_scan_graph, parse_scan_graph},
-    {".las", true, looks_like_las, parse_las}, {".laz", false, nullptr, parse_las},
-    {".obj", true, nullptr, parse_obj},        {".off", true, looks_like_off, parse_off},
-    {".pcd", true, looks_like_pcd, parse_pcd}, {".ply", true, looks_like_ply, parse_ply},
-    {".pts", false, nullptr, parse_xyz},       {".pwn", false, nullptr, parse_xyz},
-    {".stl", true, nullptr, parse_stl},        {".txt", false, nullptr, parse_xyz},
+    {".asc", false, nullptr, parse_xyz},
+    {".bin", false, nullptr, parse_kitti},
+    {".csv", false, nullptr, parse_xyz},
+    {".dae", true, nullptr, parse_dae},
+    {".glb", true, looks_like_glb, parse_gltf},
+    {".gltf", true, nullptr, parse_gltf},
+    {".graph", true, looks_like_scan_graph, parse_scan_graph},
+    {".las", true, looks_like_las, parse_las},
+    {".laz", true, nullptr, parse_las},
+    {".obj", true, nullptr, parse_obj},
+    {".off", true, looks_like_off, parse_off},
+    {".pcd", true, looks_like_pcd, parse_pcd},
+    {".ply", true, looks_like_ply, parse_ply},
+    {".pts", false, nullptr, parse_xyz},
+    {".ptx", true, nullptr, parse_ptx},
+    {".pwn", false, nullptr, parse_xyz},
+    {".stl", true, nullptr, parse_stl},
+    {".txt", false, nullptr, parse_xyz},
     {".xyz", true, nullptr, parse_xyz},
 };
 

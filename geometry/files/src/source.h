@@ -50,6 +50,9 @@ Parsed parse_las(const Source& source);
 Parsed parse_xyz(const Source& source);
 Parsed parse_kitti(const Source& source);
 Parsed parse_scan_graph(const Source& source);
+Parsed parse_gltf(const Source& source);
+Parsed parse_dae(const Source& source);
+Parsed parse_ptx(const Source& source);
 
 /// Whether the bytes start with the signature of the format.
 bool looks_like_off(std::string_view bytes);
@@ -57,5 +60,6 @@ bool looks_like_ply(std::string_view bytes);
 bool looks_like_pcd(std::string_view bytes);
 bool looks_like_las(std::string_view bytes);
 bool looks_like_scan_graph(std::string_view bytes);
+bool looks_like_glb(std::string_view bytes);
 
 }  // namespace vericone::files

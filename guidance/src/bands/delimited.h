@@ -55,9 +55,10 @@ inline std::optional<CombinedEllipsoid> grown(const CombinedEllipsoid& body, dou
   return CombinedEllipsoid::trusted(around, std::move(delimiters));
 }
 
-/// A body that contains all within `by` of a quadric or hull.
+/// A body that contains all within `by` of a convex body, or of one with delimiters.
 inline Placed wider_than(const Placed& body, double by) {
   if (const auto* quadric = body.body.quadric()) return {*grown(*quadric, by), body.pose};
+  if (const auto* convex = body.body.convex()) return {convex->swollen(by * (1 + 1e-12)), body.pose};
   std::vector<Vector3d> points;
   for (const Vector3d& x : body.body.hull()->points())
     for (int k = 0; k < 8; ++k)

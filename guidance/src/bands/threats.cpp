@@ -16,7 +16,7 @@ std::optional<Placed> core_of(const Placed& convex, const std::optional<Placed>&
   return inside ? std::optional(Placed(*inside, delimited->pose)) : std::nullopt;
 }
 
-/// A body that the agent and a ball of that radius around each of its points contain.
+/// A body that a convex one and a ball of that radius around each of its points contain.
 Placed swollen(const Placed& body, double radius) {
   if (const auto* quadric = body.body.quadric()) {
     const Ellipsoid& e = quadric->ellipsoid();
@@ -25,6 +25,7 @@ Placed swollen(const Placed& body, double radius) {
     const Vector3d longer = e.semi_axes() + Vector3d::Constant(radius * (1 - 1e-12));
     return {Ellipsoid::from_axes(e.center(), longer, axes), body.pose};
   }
+  if (const auto* convex = body.body.convex()) return {convex->swollen(radius * (1 - 1e-12)), body.pose};
   std::vector<Vector3d> points;
   for (const Vector3d& x : body.body.hull()->points())
     for (int k = 0; k < 3; ++k)
@@ -37,10 +38,8 @@ Placed swollen(const Placed& body, double radius) {
 
 Threats::Threats(const Placed& agent, std::span<const Intruder> intruders, double margin)
     : intruders_(intruders), margin_(margin) {
-  refuse_round_parts(agent.body, "agent");
   own_ = convex_parts(agent);
   for (const Intruder& intruder : intruders) {
-    refuse_round_parts(intruder.body.body, "obstacles[" + std::to_string(kept_.size()) + "]");
     Kept& kept = kept_.emplace_back();
     kept.tree = intruder.body.body.assembly();
     if (!kept.tree) kept.flat = convex_parts(intruder.body);
@@ -59,6 +58,14 @@ Threats::Ball Threats::ball_about(const Placed& part) {
   if (const auto* quadric = part.body.quadric()) {
     center = quadric->ellipsoid().center();
     square = quadric->ellipsoid().factor().squaredNorm();  // the sum of its semi-axes' squares
+  } else if (const auto* convex = part.body.convex()) {
+    const Box bounds = part.body.bounds();
+    center = bounds.center();
+    double radius = 0;
+    for (const auto& piece : convex->pieces())
+      radius = std::max(radius, (piece.center - center).norm() + piece.factor.norm());
+    radius = std::min(radius + convex->margin(), bounds.half_widths().norm());
+    square = radius * radius;
   } else {
     center = part.body.bounds().center();
     for (const Vector3d& x : part.body.hull()->points())
@@ -114,7 +121,10 @@ std::size_t Threats::part(std::size_t own, std::size_t intruder, std::size_t i) 
   const auto add = [&](const Placed& other, const std::optional<Placed>& delimited, const Ball& ball) {
     const Convex& agent = own_[own];
     Part& part = parts_.emplace_back(part_of(own, other, intruder, ball));
-    if (margin_ > 0) part.inner.emplace(swollen(agent.body, margin_), other);
+    // Of the two that which is swollen exactly.
+    const bool exactly = other.body.convex() && !agent.body.body.convex();
+    if (margin_ > 0 && exactly) part.inner.emplace(agent.body, swollen(other, margin_));
+    if (margin_ > 0 && !exactly) part.inner.emplace(swollen(agent.body, margin_), other);
     if (!agent.delimited && !delimited) return;
     part.truth.emplace(agent.delimited.value_or(agent.body), delimited.value_or(other));
     const auto core = core_of(agent.body, agent.delimited), other_core = core_of(other, delimited);

@@ -17,7 +17,7 @@
 
 namespace vericone::guidance::banding {
 
-/// A convex part of the agent and one of an intruder. `inner`: the agent's with less than the margin around
+/// A convex part of the agent and one of an intruder. `inner`: one of them with less than the margin around
 /// it; what meets that comes nearer than the margin. Of a body with delimiters `pair` is of its ellipsoid;
 /// `truth` is of the bodies as they are, and `core` of ellipsoids within them, with the same around the
 /// agent's.

@@ -298,7 +298,7 @@ Barrier barrier(const Pair& pair, const Eigen::Vector3d& v_a, const Eigen::Vecto
   const Motion motion{v_a - v_b, until};
   const auto is_convex = [](const Placed& body) {
     const auto* one = body.body.quadric();
-    return one ? one->is_ellipsoid() : body.body.hull() != nullptr;
+    return one ? one->is_ellipsoid() : body.body.hull() || body.body.convex();
   };
   if (is_convex(pair.agent()) && is_convex(pair.obstacle())) return Convex(pair, motion).run();
   return Parts(pair, motion).run();

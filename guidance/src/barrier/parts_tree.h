@@ -20,9 +20,7 @@ class PartsTree {
         assembly_(body.body.assembly()),
         inner_(assembly_   ? static_cast<Node>(assembly_->hierarchy().nodes().size())
                : quadrics_ ? 1
-                           : 0) {
-    banding::refuse_round_parts(body.body);
-  }
+                           : 0) {}
 
   static constexpr Node root() { return 0; }
   bool is_part(Node node) const { return node >= inner_; }

@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // Where two convex bodies are nearest, once the normal is known: of an ellipsoid one point is extreme along
-// it, of a hull the corners of a face. Those places of the faces, and the time, that lie on one normal.
+// it, of a hull the corners of a face, of a disc seen along its axis the rim. Those places of the faces, and
+// the time, that lie on one normal.
 #pragma once
 
 #include <vericone/geometry/body.h>
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <numbers>
 #include <vector>
 
 namespace vericone::guidance::barriers {
@@ -16,17 +19,43 @@ namespace vericone::guidance::barriers {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
+/// Where a body of flat, round and straight parts is farthest along its own unit vector n, to `slack` metres.
+/// A rim is a polygon of points on it.
+inline std::vector<Vector3d> extreme(const vericone::Convex& body, const Vector3d& n, double slack) {
+  constexpr int kAround = 48;
+  const double least = body.support(n) - body.margin() - slack;
+  std::vector<Vector3d> found;
+  for (const vericone::Convex::Piece& piece : body.pieces()) {
+    const Vector3d u = piece.factor.transpose() * n, center = piece.center + body.margin() * n;
+    const double radius = u.norm(), value = n.dot(piece.center);
+    if (!(value + radius >= least)) continue;
+    if (piece.rank == 2 && value - radius >= least) {
+      for (int k = 0; k < kAround; ++k) {
+        const double angle = 2 * std::numbers::pi * k / kAround;
+        found.push_back(center + piece.factor * Vector3d(std::cos(angle), std::sin(angle), 0));
+      }
+    } else {
+      found.push_back(radius > 0 ? Vector3d(center + piece.factor * (u / radius)) : center);
+    }
+  }
+  return found;
+}
+
 /// Points whose hull is where a convex body is farthest along a unit vector n, less the body's position.
 /// `slack`: of the body's size.
 inline std::vector<Vector3d> extreme(const Placed& body, const Vector3d& n, double slack) {
   const Vector3d own = body.pose.rotation.transpose() * n;
   if (const auto* one = body.body.quadric())
     return {body.pose.rotation * one->ellipsoid().support_point(own)};
-  const std::vector<Vector3d>& points = body.body.hull()->points();
   const Box bounds = body.body.bounds();
-  const double least = body.body.support(own) - slack * (bounds.high - bounds.low).norm();
+  const double room = slack * (bounds.high - bounds.low).norm();
   std::vector<Vector3d> found;
-  for (const Vector3d& x : points)
+  if (const auto* convex = body.body.convex()) {
+    for (const Vector3d& x : extreme(*convex, own, room)) found.push_back(body.pose.rotation * x);
+    return found;
+  }
+  const double least = body.body.support(own) - room;
+  for (const Vector3d& x : body.body.hull()->points())
     if (own.dot(x) >= least) found.push_back(body.pose.rotation * x);
   return found;
 }

@@ -16,6 +16,9 @@ FILES = {"eight.csv": "duration,x^0,x^1,y^0,z^0\n1,0,1,0,0\n1,1,1,0,0\n",
          "back.tum": "0 0 0 0 0 0 0 1\n0 1 0 0 0 0 0 1\n",
          "half.tum": "0 0 0 0 0 0 0 1\n1 1 0 0 1 0 0 0\n",
          "five.tum": "0 0 0 0 0\n1 1 0 0 0\n",
+         "poses.kitti": "1 0 0 0 0 1 0 0 0 0 1 0\n1 0 0 1 0 1 0 0 0 0 1 0\n",
+         "bent.kitti": "1 0 0 0 0 2 0 0 0 0 1 0\n1 0 0 1 0 1 0 0 0 0 1 0\n",
+         "times.txt": "0\n1\n2\n",
          "empty.csv": "# nothing\n"}
 TRACK = "{kind: powers, times: [0, 2], pieces: [[[0, 0, 0], [1, 0, 0]]]}"
 
@@ -78,6 +81,12 @@ CASES = [
     ("a quaternion of length 2", tracks("{kind: poses, file: long.tum}")),
     ("half a turn from pose to pose", tracks("{kind: poses, file: half.tum}")),
     ("five columns without names", tracks("{kind: poses, file: five.tum}")),
+    ("poses without times", tracks("{kind: poses, file: poses.kitti}")),
+    ("times in two ways", tracks("{kind: poses, file: poses.kitti, interval: 1, times_file: times.txt}")),
+    ("a time too many", tracks("{kind: poses, file: poses.kitti, times_file: times.txt}")),
+    ("a matrix that is no rotation", tracks("{kind: poses, file: bent.kitti, interval: 0.1 s}")),
+    ("an interval of poses with times", tracks("{kind: poses, file: poses.tum, interval: 0.1}")),
+    ("an interval in metres", tracks("{kind: poses, file: poses.kitti, interval: 1 m}")),
     ("velocities of straight lines", tracks("{kind: poses, times: [0, 1], points: [[0, 0, 0], [1, 0, 0]], velocities: "
                                             "[[1, 0, 0], [1, 0, 0]]}")),
     ("a rotation too few", tracks("{kind: poses, times: [0, 1], points: [[0, 0, 0], [1, 0, 0]], rotations: [[1, 0, 0, 0]]}")),

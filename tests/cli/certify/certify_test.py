@@ -63,6 +63,41 @@ class Tracks(unittest.TestCase):
                 # From (3 - x)^2 = 2.3^2 - 2.25^2 on.
                 self.assertAlmostEqual(near["to"], math.sqrt(2 * (3 - math.sqrt(2.3 ** 2 - 2.25 ** 2))), delta=1e-5)
 
+    def test_poses_of_tum_and_of_kitti(self):
+        """The same poses, a helix that turns with its heading, as both write them: the same answers."""
+        tum = kitti = times = ""
+        for i in range(21):
+            t, a = i / 10, i / 20
+            c, s = math.cos(a), math.sin(a)
+            tum += f"{t!r} {3 * c!r} {3 * s!r} {t / 10!r} 0 0 {math.sin(a / 2)!r} {math.cos(a / 2)!r}\n"
+            kitti += f"{c!r} {-s!r} 0 {3 * c!r} {s!r} {c!r} 0 {3 * s!r} 0 0 1 {t / 10!r}\n"
+            times += f"{t!r}\n"
+        self.write("poses.tum", tum)
+        self.write("poses.txt", kitti)
+        self.write("times.txt", times)
+        found = []
+        for track in ("file: poses.tum", "file: poses.txt, times_file: times.txt", "file: poses.txt, interval: 0.1",
+                      "file: poses.txt, interval: 100 ms"):
+            path = self.write("tracks.yaml", f"bodies:\n  - {{name: A, shape: {{semi_axes: [1, 0.2, 0.2]}}, track: {{kind: poses, {track}}}}}\n"
+                                             "  - {name: B, shape: {semi_axes: [1, 1, 1]}, position: [0, 0, 0]}\n")
+            pair = self.certified(path)["pairs"][0]
+            found.append((pair["verdict"], pair["from"], pair["to"], round(pair["least_distance"], 9)))
+        self.assertEqual([one[:3] for one in found], [("apart", 0, 2)] * 4)
+        self.assertEqual(len({one[3] for one in found}), 1, found)
+        # Chords between poses come 0.05^2 / 8 of the radius nearer, a body across the radius has 0.2 towards the middle.
+        self.assertAlmostEqual(found[0][3], 1, delta=0.01)
+
+    def test_check_says_what_tracks_are(self):
+        done = run("check", os.path.join(EXAMPLES, "tracks.yaml"), "--json")
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        said = {line["label"]: line["text"] for line in json.loads(done.stdout)}
+        self.assertIn("speed at most 1.5 m/s", said["eight"])
+        self.assertIn("track from", said["recorded"])
+        self.assertIn("0.05 m", said["pairs"])
+        done = run("check", self.write("bad.yaml", "bodies: [{name: A, track: {kind: poses}}]"))
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("bodies[0].shape", done.stderr)
+
     def test_examples_and_their_certificates(self):
         certificate = os.path.join(self.folder.name, "certificate.json")
         answer = self.certified(os.path.join(EXAMPLES, "tracks.yaml"), "--certificate", certificate)

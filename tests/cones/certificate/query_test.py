@@ -59,6 +59,18 @@ def body(rng, kind, center, whole):
         made["hyperboloids"] = [{"sheets": 2, "semi_axes": [0.8, 0.7, 0.9]}]
     elif kind == "hull":
         made["points"] = points(rng, rng.randint(1, 7), 2, whole)
+    elif kind == "cylinder":
+        made["cylinder"] = {"radius": axes[0], "height": 2 * axes[1]}
+    elif kind == "capsule":
+        made["capsule"] = {"radius": axes[0], "length": 2 * axes[1]}
+    elif kind == "cone":
+        made["cone"] = {"radius": axes[0], "height": 2 * axes[1]}
+    elif kind == "disc":
+        made["disc"] = {"radius": axes[0]}
+    elif kind == "rounded":
+        made.update(points=points(rng, rng.randint(1, 7), 2, whole), margin=axes[0])
+    elif kind == "towers":
+        made["pieces"] = [{"cylinder": {"radius": 1, "height": 2 * rng.randint(1, 3)}, "center": vector(rng, 3, whole)} for _ in range(3)]
     elif kind == "pieces":
         made["pieces"] = [{"points": points(rng, 4, 2, whole)} for _ in range(3)]
     elif kind == "balls":
@@ -75,6 +87,12 @@ MESH = []  # the points of the file that the bodies are made of
 
 def farthest(made, axis, sign):
     """The point of a body of whole numbers about the origin that is farthest along an axis (of a dented one not x)."""
+    for word in WORDS[:4]:
+        if word in made:
+            half = made[word].get("height", made[word].get("length", 0)) // 2
+            along = half + made["capsule"]["radius"] if word == "capsule" else half
+            across = 0 if axis == 2 else sign * made[word]["radius"]
+            return [across * (axis == 0), across * (axis == 1), sign * along if axis == 2 else -half if word == "cone" else 0]
     if "semi_axes" in made:
         return [sign * (size if i == axis else 0) for i, size in enumerate(made["semi_axes"])]
     if "pieces" in made:
@@ -82,7 +100,7 @@ def farthest(made, axis, sign):
     else:
         found = made.get("points", MESH)
     point = list(max(found, key=lambda x: sign * x[axis]))
-    point[axis] += sign * made.get("radius", 0)
+    point[axis] += sign * (made.get("radius", 0) + made.get("margin", 0))
     return point
 
 
@@ -97,6 +115,8 @@ def write_mesh(folder, rng):
 
 
 KINDS = ("ellipsoid", "hull", "mesh", "cloud", "pieces", "balls", "dented")
+WORDS = ("cylinder", "capsule", "cone", "disc", "rounded", "towers")  # of flat, round and straight parts
+ROUND = WORDS + ("ellipsoid", "hull", "mesh", "cloud")
 # How many of each; a campaign asks for many, and is told what has none.
 SCALE = int(os.environ.get("VERICONE_CASES", "0")) / 400 or 1
 
@@ -111,7 +131,10 @@ def errors(rng, most):
 
 
 def kind_of(fields):
-    for kind, field in (("dented", "hyperboloids"), ("hull", "points"), ("mesh", "mesh"), ("cloud", "cloud"), ("pieces", "pieces")):
+    for word in WORDS:
+        if word in fields:
+            return word
+    for kind, field in (("rounded", "margin"), ("dented", "hyperboloids"), ("hull", "points"), ("mesh", "mesh"), ("cloud", "cloud"), ("pieces", "pieces")):
         if field in fields:
             return kind
     return "ellipsoid"
@@ -137,11 +160,11 @@ class Certificates(unittest.TestCase):
                     case[name] = of_case
             yield case
 
-    def tangent_cases(self, rng, count):
+    def tangent_cases(self, rng, count, kinds=KINDS):
         """Bodies of whole numbers that touch in a plane across an axis: now, or after a flight along that plane."""
         for i in range(count):
             axis, sign = rng.choice((1, 2)), rng.choice((-1, 1))  # dents are along x
-            bodies = [body(rng, rng.choice(KINDS), [0, 0, 0], True) for _ in range(2)]
+            bodies = [body(rng, rng.choice(kinds), [0, 0, 0], True) for _ in range(2)]
             points = [farthest(one, axis, side) for one, side in zip(bodies, (sign, -sign))]
             v = vector(rng, 2, True)
             v[axis] = 0
@@ -192,6 +215,15 @@ class Certificates(unittest.TestCase):
         said = self.accepted(self.tangent_cases, 904, 300, 0.995)
         self.assertGreater(said["on"] + said["touching"], sum(said.values()) / 2)
 
+    def test_flat_round_and_straight_parts(self):
+        for whole, seed in ((True, 905), (False, 906)):
+            said = self.accepted(lambda rng, count, whole=whole: self.cases(rng, whole, count, ROUND), seed, 200, 0.997)
+            self.assertGreaterEqual(set(said), {"in", "out", "overlapping"})
+
+    def test_exact_tangencies_of_such(self):
+        said = self.accepted(lambda rng, count: self.tangent_cases(rng, count, ROUND), 907, 200, 0.98)
+        self.assertGreater(said["on"] + said["touching"], sum(said.values()) / 2)
+
     def test_errors(self):
         said = self.accepted(lambda rng, count: (case for _ in range(8) for case in self.cases_with_errors(rng, count // 8)), 903, 400)
         self.assertGreaterEqual(set(said), {"in", "out", "depends"})
@@ -209,6 +241,26 @@ class Certificates(unittest.TestCase):
                     false = json.loads(json.dumps(value))
                     false["verdict"] = false["certificate"]["claim"]["says"] = other
                     self.assertNotEqual(checked([json.dumps(false)], folder).returncode, 0)
+
+    def test_cone_has_the_certificate_of_its_verdict(self):
+        scene = {"agent": {"cylinder": {"radius": 1, "height": 2}, "center": [0, 0, 0], "velocity": [1, 0, 0]},
+                 "obstacle": {"semi_axes": [1, 1, 1], "center": [9, 1, 0], "velocity": [0, 0, 0]}}
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "scene.json")
+            with open(path, "w", encoding="utf-8") as file:
+                json.dump(scene, file)
+            result = run("cone", path, "--json", "--certificate")
+            self.assertEqual(json.loads(result.stdout)["certificate"]["claim"]["says"], "in", result.stderr)
+            self.assertEqual(checked(result.stdout.splitlines(), folder).returncode, 0)
+            result = run("cone", path, "--certificate")
+            self.assertEqual((result.returncode, result.stdout), (2, ""))
+            self.assertIn("--certificate: got given alone", result.stderr)
+            case = {**scene, "id": 7, "agent_velocity": [0, 1, 0], "obstacle_velocity": [0, 0, 0]}
+            for who in ("agent", "obstacle"):
+                case[who] = {name: x for name, x in scene[who].items() if name != "velocity"}
+            result = run("cone", "-", "--cases", "--certificate", input=json.dumps(case) + "\n")
+            claim = json.loads(result.stdout)["certificate"]["claim"]
+            self.assertEqual((claim["says"], claim["id"]), ("out", 7))
 
     def test_planar_bodies_are_stated_as_the_spatial_ones_that_stand_for_them(self):
         disc = {"center": [0, 0], "semi_axes": [1, 2]}

@@ -152,8 +152,8 @@ TEST_F(ReadPoints, NamesTheFormat) {
   EXPECT_EQ(read("noname", to_off(mesh)).format, "OFF");
   EXPECT_EQ(read("mesh.off", to_ply_binary<double>(mesh, std::endian::little)).format,
             "PLY binary_little_endian");
-  EXPECT_THAT(known_extensions(),
-              ElementsAre(".graph", ".las", ".obj", ".off", ".pcd", ".ply", ".stl", ".xyz"));
+  EXPECT_THAT(known_extensions(), ElementsAre(".dae", ".glb", ".gltf", ".graph", ".las", ".laz", ".obj",
+                                              ".off", ".pcd", ".ply", ".ptx", ".stl", ".xyz"));
 }
 
 TEST_F(ReadPoints, OffVariants) {

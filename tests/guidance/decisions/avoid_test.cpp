@@ -15,6 +15,7 @@
 #include <numbers>
 
 #include "guidance/decisions/balls.h"
+#include "guidance/decisions/round_pieces.h"
 #include "support/campaign.h"
 
 namespace vericone::guidance {
@@ -69,15 +70,18 @@ TEST(Avoid, ChoosesWhatIsSafeAndNothingSafeIsNearer) {
   SCOPED_TRACE(random.trace());
   int changed = 0, close = 0, samples = 0;
   using enum BodyKind;
-  for (int i = 0; i < campaign_size(60, 10'000); ++i) {
+  for (int i = 0; i < campaign_size(84, 10'000); ++i) {
     SCOPED_TRACE("case " + std::to_string(i));
     Encounter e;
-    e.agent = Placed(i % 3 == 0 ? any_body(random, BodyKind::hull)
-                                : Body(Ellipsoid::from_axes({0, 0, 0}, {0.5, 0.8, 0.3})));
+    e.agent = Placed(i % 3 == 0   ? any_body(random, BodyKind::hull)
+                     : i % 7 == 1 ? any_body(random, BodyKind::convex)
+                                  : Body(Ellipsoid::from_axes({0, 0, 0}, {0.5, 0.8, 0.3})));
     const int count = i % 50 == 49 ? 10 * (1 + random.integer(0, 9)) : 3 + i % 8;
-    const BodyKind kind = std::array{ellipsoid, hull, mesh, cloud, boxes}[i / 3 % 5];
+    // Pieces: here of flat, round and straight parts.
+    const BodyKind kind = std::array{ellipsoid, hull, mesh, cloud, boxes, convex, pieces}[i / 3 % 7];
     while (static_cast<int>(e.others.size()) < count) {
-      const Placed body(any_body(random, kind), any_pose(random, random.uniform(7, count > 10 ? 80 : 40)));
+      const Placed body(kind == pieces ? round_pieces(random) : any_body(random, kind),
+                        any_pose(random, random.uniform(7, count > 10 ? 80 : 40)));
       if (Pair(e.agent, body).relation() == Relation::disjoint)
         e.others.push_back({body, random.uniform(0, 3) * random.direction()});
     }

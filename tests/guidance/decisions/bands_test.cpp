@@ -15,6 +15,7 @@
 #include <numbers>
 
 #include "guidance/decisions/balls.h"
+#include "guidance/decisions/round_pieces.h"
 #include "support/campaign.h"
 
 namespace vericone::guidance {
@@ -179,15 +180,17 @@ TEST(Bands, HoldForBodiesOfEveryKind) {
   RandomBodies random(3824);
   SCOPED_TRACE(random.trace());
   int frees = 0, conflicts = 0;
-  for (int i = 0; i < campaign_size(70, 700); ++i) {
-    // Those of flat, round and straight parts are refused yet.
-    const BodyKind kind = kBodyKinds[static_cast<std::size_t>(i) % (kBodyKinds.size() - 1)];
-    static_assert(kBodyKinds.back() == BodyKind::convex);
-    const Placed agent(any_body(random, i % 3 == 0 ? BodyKind::hull : BodyKind::ellipsoid),
-                       any_pose(random, 0.5));
+  for (int i = 0; i < campaign_size(90, 900); ++i) {
+    // The last: a union of bodies of flat, round and straight parts.
+    const std::size_t which = static_cast<std::size_t>(i) % (kBodyKinds.size() + 1);
+    const BodyKind kind = which < kBodyKinds.size() ? kBodyKinds[which] : BodyKind::pieces;
+    const Placed agent(
+        any_body(random, std::array{BodyKind::hull, BodyKind::ellipsoid, BodyKind::convex}[i / 2 % 3]),
+        any_pose(random, 0.5));
     std::vector<Intruder> others;
     for (int k = 0; k <= i % 3; ++k)
-      others.push_back({Placed(any_body(random, kind), any_pose(random, random.uniform(8, 15))),
+      others.push_back({Placed(which < kBodyKinds.size() ? any_body(random, kind) : round_pieces(random),
+                               any_pose(random, random.uniform(8, 15))),
                         random.uniform(0, 2) * random.direction()});
     const Vector3d v = random.uniform(0.5, 4) * random.direction();
     BandOptions options;
@@ -234,10 +237,10 @@ TEST(Bands, LeaveNothingBetweenOfConvexBodies) {
   SCOPED_TRACE(random.trace());
   double between = 0;
   for (int i = 0; i < share(400); ++i) {
-    const auto kind = i % 2 == 0 ? BodyKind::ellipsoid : BodyKind::hull;
-    const Placed agent(any_body(random, kind), any_pose(random, 0.5));
+    using enum BodyKind;
+    const Placed agent(any_body(random, std::array{ellipsoid, hull, convex}[i % 3]), any_pose(random, 0.5));
     const Intruder other{
-        Placed(any_body(random, BodyKind::ellipsoid), any_pose(random, random.uniform(9, 15))),
+        Placed(any_body(random, i % 4 == 3 ? convex : ellipsoid), any_pose(random, random.uniform(9, 15))),
         2 * random.direction()};
     const Vector3d v = random.uniform(1, 4) * random.direction();
     const Bands found = bands(agent, v, {&other, 1}, {.horizon = {0, random.uniform(2, 15)}});
@@ -355,7 +358,8 @@ TEST(Bands, OfManoeuvresAreFreeWhenFlown) {
   std::vector<double> between;  // neither free nor conflict, of the whole range
   for (int i = 0; i < campaign_size(24, 240); ++i) {
     const Placed agent(any_body(random, BodyKind::ellipsoid), any_pose(random, 0.5));
-    const BodyKind kind = std::array{BodyKind::ellipsoid, BodyKind::hull, BodyKind::boxes}[i % 3];
+    using enum BodyKind;
+    const BodyKind kind = std::array{ellipsoid, hull, boxes, convex}[i % 4];
     const Intruder other{Placed(any_body(random, kind), any_pose(random, random.uniform(10, 20))),
                          random.direction()};
     const double until = random.uniform(6, 15);
@@ -445,8 +449,9 @@ TEST(Bands, KeepTheMargin) {
   double between = 0;
   for (int i = 0; i < campaign_size(12, 120); ++i) {
     SCOPED_TRACE("case " + std::to_string(i));
-    const BodyKind kind = std::array{BodyKind::ellipsoid, BodyKind::hull, BodyKind::boxes}[i % 3];
-    const Placed agent(any_body(random, i / 3 % 2 == 0 ? BodyKind::ellipsoid : BodyKind::hull),
+    using enum BodyKind;
+    const BodyKind kind = std::array{ellipsoid, hull, boxes, convex}[i % 4];
+    const Placed agent(any_body(random, std::array{ellipsoid, hull, convex}[i / 4 % 3]),
                        any_pose(random, 0.5));
     const Intruder other{Placed(any_body(random, kind), any_pose(random, random.uniform(12, 18))),
                          random.direction()};

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "guidance/decisions/balls.h"
+#include "guidance/decisions/round_pieces.h"
 #include "support/campaign.h"
 
 namespace vericone::guidance {
@@ -87,14 +88,17 @@ TEST(VelocityMaps, ClaimWhatSingleVelocitiesDo) {
   for (int i = 0; i < campaign_size(14, 1400); ++i) {
     SCOPED_TRACE("case " + std::to_string(i));
     Crowd crowd;
-    crowd.agent =
-        Placed(i % 3 == 0 ? any_body(random, hull) : Body(Ellipsoid::from_axes({0, 0, 0}, {0.5, 0.8, 0.3})));
+    crowd.agent = Placed(i % 3 == 0   ? any_body(random, hull)
+                         : i % 5 == 1 ? any_body(random, convex)
+                                      : Body(Ellipsoid::from_axes({0, 0, 0}, {0.5, 0.8, 0.3})));
     const int count = i % 7 == 6 ? 60 : 1 + i % 6;
     while (static_cast<int>(crowd.others.size()) < count) {
       // Kinds mixed in one world.
       const BodyKind kind = std::array{
-          ellipsoid, hull, mesh, cloud, boxes, combined, pieces}[std::size_t(random.integer(0, 6))];
-      const Placed body(any_body(random, kind), any_pose(random, random.uniform(5, count > 6 ? 40 : 15)));
+          ellipsoid, hull, mesh, cloud, boxes, combined, pieces, convex}[std::size_t(random.integer(0, 7))];
+      const bool round = kind == pieces && random.coin();
+      const Placed body(round ? round_pieces(random) : any_body(random, kind),
+                        any_pose(random, random.uniform(5, count > 6 ? 40 : 15)));
       if (Pair(crowd.agent, body).relation() == Relation::disjoint)
         crowd.others.push_back({body, random.uniform(0, 2) * random.direction()});
     }

@@ -124,6 +124,8 @@ def cones(ask: Ask) -> None:
     ask("collision_probability_bound", BALL, LONG, w, v.GaussianErrors(np.eye(3) * 0.1, np.eye(3) * 0.01), 5)
     ask("robust_verdict", BALL, LONG, w, still, v.RelativeErrors())
     ask("robust_verdict", pair, w, still, v.RelativeErrors())
+    turning = v.BodyMotion(velocity=[1, 0, 0], spin=[0, 0, 0.5])
+    ask("motion_answer", v.Placed(v.Body(BALL)), turning, v.Placed(v.Body(LONG)), v.BodyMotion(), v.Horizon(until=5))
     ask("ErrorSet.sum", 0.1, [np.eye(3)], [[1, 0, 0]])
     planes = ask("PlaneCones", v.WorldBody(BALL), v.WorldBody(LONG), [0, 0, 0], [8, 1, 2], v.SectorMethod.slice)
     along, across = np.array([8, 1, 2]) / 69**0.5, np.array([1, -8, 0]) / 65**0.5

@@ -219,6 +219,7 @@ class Octants {
 
 bool prove_all_in(const UncertainQuestion& question, Text& proof) {
   if (question.agent.size() != 1 || question.obstacle.size() != 1) return false;
+  if (question.agent.piece(0).convex || question.obstacle.piece(0).convex) return false;
   return Octants(question).run(proof);
 }
 

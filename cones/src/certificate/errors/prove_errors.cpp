@@ -5,6 +5,8 @@
 #include <cmath>
 #include <optional>
 
+#include "certificate/rounded_hull.h"
+
 namespace vericone::certificates {
 namespace {
 
@@ -51,6 +53,11 @@ Rational reach(const Stated& body, const Vector& n) {
   std::optional<Rational> most;
   for (std::size_t i = 0; i < body.size(); ++i) {
     const Piece piece = body.piece(i);
+    if (piece.convex) {
+      const Rational value = rounded_hull(piece, body.at()).reach(n);
+      if (!most || value > *most) most = value;
+      continue;
+    }
     const int grid = std::min({piece.grid(), grid_of(body.at()), 0});
     const Convex convex = piece.on(grid, body.at());
     Rational value = halved(convex.support(n), -grid);
@@ -152,10 +159,6 @@ std::optional<Moved> moved_by(const StatedErrors& set, const Vector3d& from, con
   for (int i = 0; i < 3; ++i) moved.error[i] = Rational(moved.to(i)) - Rational(from(i));
   if (!set.contains(moved.error)) return std::nullopt;
   return moved;
-}
-
-void write(Text& text, const Fractions& v) {
-  text.raw("[").number(v[0]).raw(", ").number(v[1]).raw(", ").number(v[2]).raw("]");
 }
 
 /// A proof of what these errors lead to: `in` or `out`.

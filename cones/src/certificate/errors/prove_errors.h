@@ -5,7 +5,7 @@
 
 #include <vericone/cones/uncertain/robust.h>
 
-#include "certificate/errors/error_set.h"
+#include "certificate/error_set.h"
 #include "certificate/prove.h"
 
 namespace vericone::certificates {

@@ -66,8 +66,6 @@ Certificate certificate(const Pair& pair, const Eigen::Vector3d& v_a, const Eige
   const Verdict verdict = pair.verdict(v_a, v_b, horizon);
   if (verdict == Verdict::undecided) return {{}, "the verdict is undecided"};
   const Stated agent(pair.agent()), obstacle(pair.obstacle());
-  if (!agent.has_words() || !obstacle.has_words())
-    return {{}, "a body with round parts beside others, or a margin, has no certificates"};
   const bool now = is_now(verdict);
   const Eigen::Vector3d still = Eigen::Vector3d::Zero();
   const Question question{agent, obstacle, now ? still : v_a, now ? still : v_b,
@@ -89,8 +87,6 @@ Certificate certificate(const Pair& pair, const Eigen::Vector3d& v_a, const Eige
   const Horizon horizon{0, errors.horizon};
   if (position.none() && velocity.none()) return certificate(pair, v_a, v_b, horizon, id);
   const Stated agent(pair.agent()), obstacle(pair.obstacle());
-  if (!agent.has_words() || !obstacle.has_words())
-    return {{}, "a body with round parts beside others, or a margin, has no certificates"};
   const UncertainQuestion question{agent, obstacle, v_a, v_b, position, velocity, errors.horizon};
   Text proof, more;
   bool proved = false;

@@ -6,6 +6,7 @@
 #include <limits>
 #include <numeric>
 
+#include "certificate/convex_pair.h"
 #include "certificate/forms/forms.h"
 #include "certificate/polytopes.h"
 
@@ -64,6 +65,11 @@ Groups::Side::Side(const Stated& stated) : body(stated) {
   middles.reserve(stated.size());
   for (std::size_t i = 0; i < stated.size(); ++i) {
     pieces.push_back(stated.piece(i));
+    if (const auto* body_of = pieces.back().convex) {
+      convex = true;
+      middles.push_back(body_of->middle());
+      continue;
+    }
     Vector3d sum = Vector3d::Zero();
     for (const Vector3d& x : pieces.back().corners) {
       sum += x;
@@ -107,8 +113,22 @@ bool Groups::holds(const Plane& plane, const Set& a, const Set& b) const {
   return true;
 }
 
+std::optional<Plane> Groups::plane_of_convex(const Set& a, const Set& b) const {
+  const auto together = [](const Side& side, const Set& set) {
+    RoundedHull all{side.body.at(), {}};
+    if (set.size() == side.pieces.size() && !side.body.triangles().empty())
+      append(all, Piece{side.body.points()});
+    else
+      for (const std::uint32_t i : set) append(all, side.pieces[i]);
+    return all;
+  };
+  const RoundedHull agent = together(a_, a), obstacle = together(b_, b);
+  return ConvexPair(agent, obstacle, question_.v_a, question_.v_b, question_.horizon).plane();
+}
+
 /// One plane for all of them, from the hulls of their corners and centers; nothing where none is found.
 std::optional<Plane> Groups::plane_of(const Set& a, const Set& b) const {
+  if (a_.convex || b_.convex) return plane_of_convex(a, b);
   const auto together = [](const Side& side, const Set& set) {
     if (set.size() == 1) return side.pieces[set.front()];
     Piece all;
@@ -172,8 +192,8 @@ bool Groups::cover(const Set& a, const Set& b, bool divide_agent, std::vector<Le
     if (!prove_all(a, b, text)) return false;
   } else {
     const PairOfPieces one = pair(a.front(), b.front());
-    const bool proved =
-        one.has_dents() ? prove_out_by_forms(one, text) : touching_ && certificates::prove_on(one, text);
+    const bool proved = one.has_dents() && !one.has_convex() ? prove_out_by_forms(one, text)
+                                                             : touching_ && certificates::prove_on(one, text);
     if (!proved) return false;
   }
   leaves.push_back({divided, text.take()});
@@ -232,7 +252,8 @@ bool Groups::prove_out(Text& proof, bool touching) {
 bool Groups::find_in(const Set& a, const Set& b, Text& proof) {
   if (a.size() == 1 && b.size() == 1) {
     const PairOfPieces one = pair(a.front(), b.front());
-    return one.has_dents() ? prove_in_of_forms(one, proof) : certificates::prove_in(one, proof);
+    return one.has_dents() && !one.has_convex() ? prove_in_of_forms(one, proof)
+                                                : certificates::prove_in(one, proof);
   }
   if (plane_of(a, b)) return false;
   if (a.size() > b.size()) {

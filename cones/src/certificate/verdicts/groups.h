@@ -27,6 +27,7 @@ class Groups {
     std::vector<Piece> pieces;
     std::vector<Eigen::Vector3d> middles;
     Eigen::Vector3d reach = Eigen::Vector3d::Zero();  // the largest |coordinate| of corners along each axis
+    bool convex = false;  // some have flat, round and straight parts
     explicit Side(const Stated& stated);
   };
   /// Of a leaf of the search: some pieces of the obstacle, or a proof of one of them.
@@ -37,6 +38,7 @@ class Groups {
 
   [[nodiscard]] PairOfPieces pair(std::uint32_t i, std::uint32_t j) const;
   [[nodiscard]] std::optional<Plane> plane_of(const Set& a, const Set& b) const;
+  [[nodiscard]] std::optional<Plane> plane_of_convex(const Set& a, const Set& b) const;
   [[nodiscard]] bool holds(const Plane& plane, const Set& a, const Set& b) const;
   static std::pair<Set, Set> halves(const Side& side, const Set& set);
   bool cover(const Set& a, const Set& b, bool divide_agent, std::vector<Leaf>& leaves);

@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "proof/homes.h"
+#include "proof/inside_text.h"
 
 namespace vericone::fitting {
 namespace {
@@ -108,8 +109,8 @@ void write_proof(std::string& text, const std::vector<int>& homes, std::size_t p
 
 }  // namespace
 
-InsideCertificate inside_certificate(const std::vector<std::vector<Quadric>>& pieces, const Sample& sample) {
-  const Assignment homes = homes_of(pieces, sample);
+InsideCertificate inside_text(const Sample& sample, const Assignment& homes, std::size_t pieces,
+                              const std::function<void(std::string&)>& write_pieces) {
   const std::vector<std::uint32_t> used = used_points(sample);
   if (used.empty()) return {{}, "there is no point"};
   const auto outside = static_cast<std::size_t>(
@@ -122,9 +123,14 @@ InsideCertificate inside_certificate(const std::vector<std::vector<Quadric>>& pi
                 " triangles are in no piece as a whole"};
   std::string text = R"({"format": "vericone-certificate", "version": 1, "claim": {"says": "inside")";
   write_sample(text += ", \"agent\": ", sample);
-  write_hull(text += ", \"obstacle\": ", pieces);
-  write_proof(text += "}, \"proof\": ", sample.is_mesh() ? homes.triangles : homes.points, pieces.size());
+  write_pieces(text += ", \"obstacle\": ");
+  write_proof(text += "}, \"proof\": ", sample.is_mesh() ? homes.triangles : homes.points, pieces);
   return {text + "}", {}};
+}
+
+InsideCertificate inside_certificate(const std::vector<std::vector<Quadric>>& pieces, const Sample& sample) {
+  return inside_text(sample, homes_of(pieces, sample), pieces.size(),
+                     [&](std::string& text) { write_hull(text, pieces); });
 }
 
 }  // namespace vericone::fitting

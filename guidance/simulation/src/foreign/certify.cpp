@@ -203,32 +203,16 @@ std::vector<LimitOnTrack> limits_of(const std::vector<TrackedBody>& bodies, doub
   return found;
 }
 
-/// What sets pairs in order: the worst first.
-int rank(TrackVerdict verdict) {
-  switch (verdict) {
-    case TrackVerdict::contact:
-      return 0;
-    case TrackVerdict::nearer:
-      return 1;
-    case TrackVerdict::undecided:
-      return 2;
-    case TrackVerdict::apart:
-      return 3;
-  }
-  return 3;
-}
-
 }  // namespace
 
 const char* to_string(TrackVerdict verdict) {
-  constexpr const char* kWords[] = {"apart", "contact", "nearer", "undecided"};
+  constexpr const char* kWords[] = {"contact", "nearer", "undecided", "apart"};
   return kWords[static_cast<std::size_t>(verdict)];
 }
 
 TrackVerdict CertifiedTracks::verdict() const {
   TrackVerdict worst = TrackVerdict::apart;
-  for (const PairOnTracks& pair : pairs)
-    if (rank(pair.verdict) < rank(worst)) worst = pair.verdict;
+  for (const PairOnTracks& pair : pairs) worst = std::min(worst, pair.verdict);
   return worst;
 }
 

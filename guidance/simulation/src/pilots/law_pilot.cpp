@@ -83,28 +83,12 @@ void LawPilot::check_courses() const {
                      "left out, or given with clearance.longitudinal: true: else it keeps its speed");
 }
 
-namespace {
-
-/// A Convex, or an assembly of them: guarded courses are not proved beside those yet.
-bool has_round_parts(const ShapeInTime& shape) {
-  const Placed* placed = shape.rigid() ? shape.rigid()->placed() : nullptr;
-  if (!placed) return false;
-  const Assembly* pieces = placed->body.assembly();
-  return placed->body.convex() || (pieces && pieces->kind() == PieceKind::convex);
-}
-
-}  // namespace
-
 /// What the law can see; and whether meetings of the kinds can be proved.
 void LawPilot::check_kinds(const Scenario& scenario, const Body& self) const {
   const guidance::BodyState agent = first_state(self);
   for (const Body& other : scenario.bodies) {
     if (other.name == self.name || !minds(pilot_, other.name) || planar(other.shape) != planar(self.shape))
       continue;
-    if (guarded(pilot_) && has_round_parts(other.shape))
-      throw InputError("minds", other.name,
-                       "bodies without round parts beside others and without margins: hulls, ellipsoids, "
-                       "meshes, clouds, maps or unions of them");
     const guidance::BodyState obstacle = first_state(other);
     if (guidance::has_sectors(agent, obstacle, guidance::SectorMethod::slice)) continue;
     if (by_sector() && !guidance::has_sectors(agent, obstacle, pilot_.guide.sector))

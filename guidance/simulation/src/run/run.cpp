@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "names.h"
+#include "proof/corridor.h"
 #include "tracks/sign_change.h"
 
 namespace vericone::simulation {
@@ -100,6 +101,7 @@ class Runner {
       const Timed timed(run_.times.proofs);
       prove_pairs();
       prove_passages();
+      prove_corridors();
     }
     std::stable_sort(run_.events.begin(), run_.events.end(),
                      [](const Event& x, const Event& y) { return x.t < y.t; });
@@ -227,6 +229,8 @@ class Runner {
       event({*way.since, EventKind::reaches_goal, agent, agent, double(way.next + 1)});
     }
     if (to - *way.since < goal.stay) return;
+    legs_.push_back({agent, way.next, way.began, to});
+    way.began = to;
     ++way.next;
     way.since.reset();
     done_ = true;
@@ -305,6 +309,28 @@ class Runner {
     }
   }
 
+  /// Of each leg that was flown, the one that was not ended too.
+  void prove_corridors() {
+    for (std::size_t i = 0; i < ways_.size(); ++i)
+      if (ways_[i].next < goals(i).size()) legs_.push_back({i, ways_[i].next, ways_[i].began, run_.end});
+    std::sort(legs_.begin(), legs_.end(), [](const CorridorOutcome& x, const CorridorOutcome& y) {
+      return std::pair(x.agent, x.goal) < std::pair(y.agent, y.goal);
+    });
+    for (CorridorOutcome leg : legs_) {
+      const Goal& goal = goals(leg.agent)[leg.goal];
+      const Track& track = run_.tracks[leg.agent];
+      leg.from = std::max(leg.from, track.appears());
+      if (!std::isfinite(goal.corridor) || !(leg.from < leg.to)) continue;
+      const Vector3d from = goal.from      ? *goal.from
+                            : leg.goal > 0 ? goals(leg.agent)[leg.goal - 1].point
+                                           : scenario_.bodies[leg.agent].start.position;
+      const CorridorProof proof = prove_corridor(track, {from, goal.point, goal.corridor}, leg.from, leg.to);
+      leg.room = proof.room;
+      leg.left = proof.left;
+      run_.corridors.push_back(leg);
+    }
+  }
+
   PassageProof passage(const Track& track, const MovingOrifice& orifice, double from) const {
     if (!orifice.window) return prove_passage(track, orifice, from, run_.end, scenario_.proof);
     return prove_passage(track, *orifice.window, mesh_track(orifice, run_.end), from, run_.end,
@@ -329,8 +355,10 @@ class Runner {
   struct Way {
     std::size_t next = 0;         // the one that it goes to
     std::optional<double> since;  // s, when it came there
+    double began = 0;             // s, when it set out
   };
   std::vector<Way> ways_;
+  std::vector<CorridorOutcome> legs_;      // that were flown to their goals, without what is proved
   Goal goal_;                              // as it is now, for who is asked
   std::vector<double> spent_, decisions_;  // s: at this command by each agent, and all that are done
   double before_ = -1;

@@ -19,28 +19,30 @@ using Face = std::vector<std::uint32_t>;
 
 struct PointFile {
   /// "OFF", "OBJ", "PLY ascii", "PLY binary_little_endian", "PLY binary_big_endian", "STL ascii",
-  /// "STL binary", "PCD ascii", "PCD binary", "PCD binary_compressed", "LAS 1.2" (its version), "XYZ",
-  /// "KITTI", "nuScenes", "scan graph" or "scan graph text".
+  /// "STL binary", "PCD ascii", "PCD binary", "PCD binary_compressed", "LAS 1.2" or "LAZ 1.2" (its
+  /// version), "PTX", "XYZ", "KITTI", "nuScenes", "scan graph", "scan graph text", "glTF 2.0", "glTF 2.0
+  /// binary" or "COLLADA 1.4.1" (its version).
   std::string format;
 
   /// In the unit, frame and order of the file. The double nearest to what is written, however many digits; a
   /// binary float is kept exactly; LAS coordinates are rounded once from integer * scale + offset. Of a scan
-  /// graph in its world frame, turned and moved in double; of an STL file each point once, in the order of
-  /// first use. All finite.
+  /// graph and of PTX in the world frame, turned and moved in double; of an STL file each point once, in the
+  /// order of first use. Of a scene (glTF, COLLADA) as its nodes place them, z up, in metres where the file
+  /// says its unit, points that are equal there once. All finite.
   std::vector<Eigen::Vector3d> points;
 
   /// Empty for a cloud. Triangles, quads and larger polygons as they stand in the file.
   std::vector<Face> faces;
 
   /// Points of the file with a coordinate that is NaN or infinite, left out of `points`; the indices in
-  /// `faces` are those after leaving them out.
+  /// `faces` are those after leaving them out. Of PTX also those from where nothing came back.
   std::size_t dropped_points = 0;
 
   /// Faces of the file that use a dropped point or have fewer than three corners, left out of `faces`.
   std::size_t dropped_faces = 0;
 
-  /// Of an organised cloud (PCD with more than one row) the grid of the file, which `points` still fills
-  /// where no point was dropped; 0 otherwise.
+  /// Of an organised cloud (PCD with more than one row, PTX of one scan) the grid of the file, which `points`
+  /// still fills where no point was dropped; 0 otherwise.
   std::size_t width = 0, height = 0;
 
   /// Bytes after the data that the header of a binary PLY, STL or PCD file claims, read over: more than a few
@@ -51,10 +53,11 @@ struct PointFile {
   std::size_t unreferenced_points = 0;
 };
 
-/// Reads meshes (OFF, OBJ, PLY, STL) and clouds (PLY, PCD, LAS, XYZ and kin, KITTI, OctoMap's scan graphs);
-/// docs/reference/formats.md has what is kept of each and what is refused. Other content (normals, colours,
-/// intensities, further PLY elements) is read over; PLY triangle strips become triangles. The format is told
-/// by the first bytes where the format has a signature, by the extension otherwise.
+/// Reads meshes (OFF, OBJ, PLY, STL), scenes of them (glTF, GLB, COLLADA) and clouds (PLY, PCD, LAS, LAZ,
+/// PTX, XYZ and kin, KITTI, OctoMap's scan graphs); docs/reference/files.md has what is kept of each and what
+/// is refused. Other content (normals, colours, intensities, further PLY elements) is read over; PLY triangle
+/// strips become triangles. The format is told by the first bytes where the format has a signature, by the
+/// extension otherwise.
 ///
 /// Throws InputError whose field is the path and whose message is one line: for a file that is missing,
 /// empty, truncated, longer than its header says (but for `trailing_bytes`), of no known format or malformed

@@ -133,6 +133,16 @@ struct PlansProved {
   double range = std::numeric_limits<double>::infinity();  // m, of its sensor
 };
 
+/// Of a goal with a corridor, while its agent was on its way to it.
+struct CorridorOutcome {
+  std::size_t agent = 0, goal = 0;  // goal: of the pilot's, from 0
+  double from = 0, to = 0;          // s
+  /// m: so much was left at least between the body and the wall, proved, between the commands too; the body
+  /// counts as a ball about its reference point. Negative: not proved to have stayed inside.
+  double room = 0;
+  bool left = false;  // its reference point was outside: proved
+};
+
 /// What a run cost in seconds, by the clock: another each time. A decision is all that a pilot does at one
 /// command: sensor, estimator, laws of all that it minds, courses.
 struct RunTimes {
@@ -152,8 +162,9 @@ struct Run {
   std::vector<Event> events;                 // by time
   std::vector<PairOutcome> proofs;           // every pair of bodies that are there together, but:
   std::vector<NotChecked> not_checked;
-  std::vector<OrificeSample> orifices;   // by time, agent
-  std::vector<PassageOutcome> passages;  // of every body that is flown, and every orifice
+  std::vector<OrificeSample> orifices;     // by time, agent
+  std::vector<PassageOutcome> passages;    // of every body that is flown, and every orifice
+  std::vector<CorridorOutcome> corridors;  // by agent, goal; of those that it set out for
   std::vector<PlansProved> plans;  // of every guarded pilot that commanded, in the order of their bodies
   bool interrupted = false;
   RunTimes times;

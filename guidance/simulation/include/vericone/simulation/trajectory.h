@@ -119,11 +119,12 @@ struct CertifyOptions {
   std::function<bool(double share)> goes_on = {};  // asked before each pair; false ends it there
 };
 
+/// The worst first.
 enum class TrackVerdict : std::uint8_t {
-  apart,      // farther apart than required all the time, whatever the motions within the radii: proved
   contact,    // on the tracks themselves they meet: proved
   nearer,     // some motions within the radii come nearer than required, or meet: proved
   undecided,  // nearer to one of these than the proof resolves
+  apart,      // farther apart than required all the time, whatever the motions within the radii: proved
 };
 [[nodiscard]] const char* to_string(TrackVerdict verdict);
 
@@ -161,7 +162,7 @@ struct CertifiedTracks {
   std::vector<LimitOnTrack> limits;
   bool interrupted = false;
 
-  /// The worst of all pairs: contact, nearer, undecided, apart.
+  /// The worst of all pairs.
   [[nodiscard]] TrackVerdict verdict() const;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "certificate/errors/error_set.h"
+#include "certificate/error_set.h"
 
 #include <cmath>
 
@@ -8,6 +8,10 @@ namespace vericone::certificates {
 Fractions fractions(const Eigen::Vector3d& v) { return {Rational(v.x()), Rational(v.y()), Rational(v.z())}; }
 
 Rational dot(const Fractions& x, const Fractions& y) { return x[0] * y[0] + x[1] * y[1] + x[2] * y[2]; }
+
+void write(Text& text, const Fractions& v) {
+  text.raw("[").number(v[0]).raw(", ").number(v[1]).raw(", ").number(v[2]).raw("]");
+}
 
 Rational root_above(const Rational& q) {
   if (q.sign() <= 0) return 0;

@@ -16,6 +16,7 @@ using Fractions = std::array<Rational, 3>;
 
 Fractions fractions(const Eigen::Vector3d& v);
 Rational dot(const Fractions& x, const Fractions& y);
+void write(Text& text, const Fractions& v);
 
 /// Not below sqrt(q), and above it by less than 2^-60 of it.
 Rational root_above(const Rational& q);

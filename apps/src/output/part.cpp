@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "output/part.h"
+
+#include <vericone/geometry/error.h>
+#include <algorithm>
+#include <array>
+#include <ostream>
+
+#include "output/output_file.h"
+
+namespace vericone {
+namespace {
+
+std::optional<std::uint64_t> count_of(const std::string& text) {
+  constexpr std::size_t kMostDigits = 9;
+  const bool digits = !text.empty() && text.size() <= kMostDigits &&
+                      std::all_of(text.begin(), text.end(), [](char c) { return c >= '0' && c <= '9'; });
+  return digits ? std::optional<std::uint64_t>(std::stoull(text)) : std::nullopt;
+}
+
+/// The words that say what the rows are: not where they go, or how.
+std::vector<std::string> that_matter(const std::vector<std::string>& words) {
+  constexpr std::array<std::string_view, 3> kWithValue{"--out", "--part", "--threads"};
+  constexpr std::array<std::string_view, 3> kFlags{"--quiet", "--json", "--no-figures"};
+  std::vector<std::string> kept;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    const std::string name = words[i].substr(0, words[i].find('='));
+    if (std::find(kFlags.begin(), kFlags.end(), name) != kFlags.end()) continue;
+    if (std::find(kWithValue.begin(), kWithValue.end(), name) == kWithValue.end())
+      kept.push_back(words[i]);
+    else if (name == words[i])
+      ++i;
+  }
+  return kept;
+}
+
+}  // namespace
+
+std::string Part::text() const { return std::to_string(number) + "/" + std::to_string(of); }
+
+std::optional<Part> part_of(const OutputOptions& options) {
+  if (options.part.empty()) return std::nullopt;
+  const std::size_t slash = options.part.find('/');
+  const auto number = count_of(options.part.substr(0, slash)),
+             of = slash == std::string::npos ? std::nullopt : count_of(options.part.substr(slash + 1));
+  if (!number || !of || *number < 1 || *number > *of)
+    throw InputError("--part", options.part, "K/N, the K-th of N parts, such as 3/8");
+  return Part{*number, *of};
+}
+
+work::ResumableTable rows_of_part(work::ResumableTable table, const Part& part) {
+  const std::uint64_t each = table.count / part.of, more = table.count % part.of;
+  const auto begin = [&](std::uint64_t parts) { return parts * each + std::min(parts, more); };
+  table.settings += ", part " + part.text() + " of " + std::to_string(table.count) + " rows";
+  table.first = begin(part.number - 1);
+  table.count = begin(part.number);
+  return table;
+}
+
+int publish_part(const OutputOptions& options, work::StagedFolder& folder,
+                 const std::vector<work::ResumableTable>& tables, Json origin, std::ostream& out) {
+  const Part part = part_of(options).value();
+  Json& kept = origin["part"] = {{"number", part.number},
+                                 {"of", part.of},
+                                 {"words", that_matter(options.words)},
+                                 {"tables", Json::array()}};
+  for (const work::ResumableTable& table : tables)
+    kept["tables"].push_back({{"file", table.name}, {"settings", rows_of_part(table, part).settings}});
+  write_whole(folder.path() / "provenance.json", origin.dump(1) + "\n");
+  folder.publish();
+  if (options.json)
+    out << kept.dump(1) << '\n';
+  else
+    out << "part " << part.text() << " is in " << options.out << "; vericone merge puts all parts together\n";
+  return 0;
+}
+
+}  // namespace vericone

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// A part of a command's rows, on one machine of many: --part K/N. `vericone merge` puts the parts together.
+#pragma once
+
+#include <cstdint>
+#include <iosfwd>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "json/json_value.h"
+#include "output/output_options.h"
+#include "work/resumable_table.h"
+
+namespace vericone {
+
+struct Part {
+  std::uint64_t number = 1, of = 1;
+  [[nodiscard]] std::string text() const;  // "3/8"
+};
+
+/// Throws InputError naming --part.
+[[nodiscard]] std::optional<Part> part_of(const OutputOptions& options);
+
+/// The rows of the part: as near to count/N as may be, with settings that say so.
+[[nodiscard]] work::ResumableTable rows_of_part(work::ResumableTable table, const Part& part);
+
+/// Publishes the tables of a part with what `merge` asks of them. Returns the exit status.
+int publish_part(const OutputOptions& options, work::StagedFolder& folder,
+                 const std::vector<work::ResumableTable>& tables, Json origin, std::ostream& out);
+
+}  // namespace vericone
