@@ -121,7 +121,9 @@ std::string collision_text(const Solid& solid, bool urdf, const std::string& nam
   const std::string place =
       urdf ? R"(<origin xyz=")" + numbers_text(solid.center) + R"(" rpy=")" + numbers_text(angles) + R"("/>)"
            : "<pose>" + numbers_text(solid.center) + " " + numbers_text(angles) + "</pose>";
-  return R"(<collision name=")" + name + R"(">)" + place + "<geometry>" +
+  std::string quoted;
+  for (const char c : name) quoted += c == '"' ? "&quot;" : std::string(1, c);
+  return R"(<collision name=")" + quoted + R"(">)" + place + "<geometry>" +
          (urdf ? urdf_shape(solid) : sdf_shape(solid)) + "</geometry>" + properties + "</collision>";
 }
 

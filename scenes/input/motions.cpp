@@ -21,7 +21,8 @@ struct MotionFields {
 Fields<MotionFields> rows(const Value<Eigen::Vector3d>& spin, const Value<Eigen::Vector3d>& acceleration) {
   return Fields<MotionFields>("motion")
       .row("spin", &MotionFields::spin, spin,
-           "Constant, about `center`, in the axes of the world; in the plane a number, counter-clockwise. Of "
+           "Constant, about `center` (of a body from a `file`, its own), in the axes of the world; in the "
+           "plane a number, counter-clockwise. Of "
            "`vericone query` alone.",
            absent("it does not turn"))
       .row("acceleration", &MotionFields::acceleration, acceleration,

@@ -109,7 +109,8 @@ std::optional<double> scaled_decimal(std::string_view number, std::int64_t times
     std::string_view power = number.substr(e + 1);
     if (power.starts_with('+')) power.remove_prefix(1);
     long given = 0;
-    std::from_chars(power.data(), power.data() + power.size(), given);
+    const auto [end, error] = std::from_chars(power.data(), power.data() + power.size(), given);
+    if (error != std::errc()) given = power.starts_with('-') ? -2000 : 2000;  // beyond all doubles
     exponent += std::clamp(given, -2000L, 2000L);
   }
   // digits * times: carries from the right.

@@ -90,6 +90,10 @@ class Merge(unittest.TestCase):
         self.refused(one, seed, three, says=f'part: got {seed} with "campaign .* --seed 10", must be of "campaign .* --seed 9"')
         of_four = self.part(words, 2, 4, "four")
         self.refused(one, of_four, three, says=f"part: got {of_four} with 4 parts, must be of 3 parts, as {one}")
+        result = run("merge", one, two, three, "--out", two)
+        self.assertEqual(result.returncode, 2)
+        self.assertEqual(result.stderr, f"vericone: --out: got {two}, must be another folder than those of the parts\n")
+        self.assertEqual(os.listdir(two), os.listdir(one))
         self.refused(one, self.path("nowhere"), says="part: got .*nowhere, must be a folder in which a command with --part")
         whole = self.path("whole")
         self.assertEqual(run(*words, "--no-figures", "--quiet", "--out", whole).returncode, 0)
@@ -116,7 +120,7 @@ class Merge(unittest.TestCase):
             out = self.path(what)
             result = run("merge", *parts, "--quiet", "--no-figures", "--out", out)
             self.assertEqual((result.returncode, result.stdout), (2, ""))
-            self.assertRegex(result.stderr, "^vericone: --out: got .*, must be a folder whose engagements.csv.partial has row")
+            self.assertEqual(result.stderr, f"vericone: part: got {table}, must be the table that its provenance.json tells of\n")
 
     def test_a_part_that_was_stopped_goes_on(self):
         words = ["campaign", "-N", "3000", "--laws", "clearance", "--no-figures", "--quiet", "--part", "2/2"]
@@ -132,11 +136,18 @@ class Merge(unittest.TestCase):
         self.assertEqual(p.returncode, 130)
         self.assertEqual(run(*words, "--threads", "1", "--out", stopped).returncode, 0)
         self.assertEqual(contents(stopped), contents(whole))
-        # What is unfinished is of that part alone.
+        # What is there, finished or not, is of that part alone.
+        before = contents(stopped)
+        finished = run(*words[:-1], "1/2", "--out", stopped)
+        self.assertEqual(finished.returncode, 2)
+        self.assertIn("must be a folder without another result", finished.stderr)
+        self.assertEqual(contents(stopped), before)
+        self.assertEqual(run(*words, "--out", stopped).returncode, 0)  # itself again
         shutil.move(os.path.join(stopped, "engagements.csv"), partial)
-        other = run(*words[:-1], "1/2", "--out", stopped)
-        self.assertEqual(other.returncode, 2)
-        self.assertIn("without the unfinished run of other settings", other.stderr)
+        os.remove(os.path.join(stopped, "provenance.json"))
+        unfinished = run(*words[:-1], "1/2", "--out", stopped)
+        self.assertEqual(unfinished.returncode, 2)
+        self.assertIn("without the unfinished run of other settings", unfinished.stderr)
 
     def test_words_that_are_no_part(self):
         for text in ("0/4", "5/4", "4", "1/0", "a/b", "1/4x", "-1/4", "1/99999999999", ""):

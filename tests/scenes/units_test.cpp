@@ -125,6 +125,8 @@ TEST(Units, OfAnotherDimensionOrUnknownAreRefused) {
     EXPECT_TRUE(refusal(text, " (metres)").starts_with("field: got")) << text;
   EXPECT_TRUE(refusal(std::string(100, '1') + " m", " (metres)").starts_with("field: got"));
   EXPECT_TRUE(refusal(Json{5, "m"}, " (metres)").starts_with("field: got"));
+  for (const char* text : {"5e-99999999999999999999 m", "5e99999999999999999999 km"})
+    EXPECT_TRUE(refusal(text, " (metres)").starts_with("field: got")) << text;
 }
 
 TEST(Units, OfScenesAreThoseOfTheirNumbers) {

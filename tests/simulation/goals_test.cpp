@@ -268,7 +268,7 @@ TEST(Goals, CorridorsAreProvedOfTheFlownTrack) {
   }
   EXPECT_EQ(run.corridors[1].to, run.end);
   // Too fast for the turn that it would take: out with its side, then with its middle.
-  for (const double speed : {1.2, 6.0}) {
+  for (const double speed : {1.8, 6.0}) {
     Scenario scenario = cornered();
     scenario.bodies[0].start.velocity = {0, speed, 0};
     const auto fast = simulate(scenario);

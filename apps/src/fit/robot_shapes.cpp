@@ -51,15 +51,32 @@ RobotShapes::RobotShapes(const std::string& file, const std::vector<std::string>
   });
 }
 
+namespace {
+
+/// What an attribute says that is written so.
+std::string said(std::string written) {
+  for (const auto& [entity, meant] :
+       {std::pair("&lt;", "<"), std::pair("&gt;", ">"), std::pair("&quot;", "\""), std::pair("&apos;", "'"),
+        std::pair("&amp;", "&")}) {
+    const std::string from = entity;
+    for (std::size_t at = 0; (at = written.find(from, at)) != std::string::npos; ++at)
+      written.replace(at, from.size(), meant);
+  }
+  return written;
+}
+
+}  // namespace
+
 std::vector<RobotShapes::Link> RobotShapes::links() const {
   std::vector<Link> links;
   for (fit::LinkText& text : fit::links_of(text_)) {
     // The reader leaves out the name of a model that is alone.
-    const std::size_t colons = text.name.find("::");
-    const std::string alone = colons == std::string::npos ? text.name : text.name.substr(colons + 2);
+    const std::string name = said(text.name);
+    const std::size_t colons = name.find("::");
+    const std::string alone = colons == std::string::npos ? name : name.substr(colons + 2);
     const robot::Link* found = nullptr;
     for (const robot::Link& one : robot_.links)
-      if (one.name == text.name || (one.name == alone && !found)) found = &one;
+      if (one.name == name || (one.name == alone && !found)) found = &one;
     if (!found || found->geometries.size() != text.collisions.size())
       throw InputError(file_, "a link " + text.name, "one that the reader of robots knows by that name");
     links.push_back({std::move(text), &found->geometries});

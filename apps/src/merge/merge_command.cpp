@@ -18,6 +18,7 @@
 #include "json/json_value.h"
 #include "output/output_file.h"
 #include "output/part.h"
+#include "work/file_hash.h"
 #include "work/interrupt.h"
 
 namespace vericone {
@@ -26,7 +27,7 @@ namespace {
 namespace fs = std::filesystem;
 
 struct PartTable {
-  std::string file, settings;  // settings: of the part
+  std::string file, settings, sha256;  // settings: of the part
 };
 
 struct FinishedPart {
@@ -53,7 +54,8 @@ FinishedPart read_part(const std::string& folder) {
                        .words = part.at("words").get<std::vector<std::string>>(),
                        .tables = {}};
     for (const Json& table : part.at("tables"))
-      found.tables.push_back({table.at("file").get<std::string>(), table.at("settings").get<std::string>()});
+      found.tables.push_back({table.at("file").get<std::string>(), table.at("settings").get<std::string>(),
+                              table.at("sha256").get<std::string>()});
     const bool whole = std::all_of(found.tables.begin(), found.tables.end(), [](const PartTable& table) {
       return fs::path(table.file).filename() == table.file;
     });
@@ -120,7 +122,8 @@ void add_rows(const FinishedPart& part, const PartTable& table, bool first, Outp
   const fs::path file = fs::path(part.folder) / table.file;
   std::ifstream in(file, std::ios::binary);
   std::string settings, header;
-  if (!std::getline(in, settings) || !std::getline(in, header) || settings != table.settings)
+  if (!std::getline(in, settings) || !std::getline(in, header) || settings != table.settings ||
+      sha256_of_file(file) != table.sha256)
     throw InputError("part", file.string(), "the table that its provenance.json tells of");
   if (first) out.write(settings_of_all(table, part.part) + "\n" + header + "\n");
   std::string piece(std::size_t{1} << 20, '\0');
@@ -130,6 +133,11 @@ void add_rows(const FinishedPart& part, const PartTable& table, bool first, Outp
 }
 
 void merge_tables(const std::vector<FinishedPart>& parts, const std::string& out) {
+  for (const FinishedPart& part : parts) {
+    std::error_code none;
+    if (fs::equivalent(part.folder, out, none))
+      throw InputError("--out", out, "another folder than those of the parts");
+  }
   work::StagedFolder folder(out, "--out");
   for (std::size_t i = 0; i < parts.front().tables.size(); ++i) {
     const PartTable& of_first = parts.front().tables[i];

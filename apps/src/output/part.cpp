@@ -7,6 +7,7 @@
 #include <ostream>
 
 #include "output/output_file.h"
+#include "work/file_hash.h"
 
 namespace vericone {
 namespace {
@@ -57,6 +58,20 @@ work::ResumableTable rows_of_part(work::ResumableTable table, const Part& part) 
   return table;
 }
 
+void require_no_other_result(const OutputOptions& options, const work::StagedFolder& folder,
+                             const Part& part) {
+  const std::filesystem::path file = folder.published(folder.path() / "provenance.json");
+  if (!std::filesystem::exists(file)) return;
+  const Json origin = Json::parse(content_of(file), nullptr, false);
+  const Json* const there = origin.is_object() && origin.contains("part") ? &origin["part"] : nullptr;
+  if (there && there->is_object() && there->value("number", 0U) == part.number &&
+      there->value("of", 0U) == part.of && there->value("words", Json()) == that_matter(options.words))
+    return;
+  throw InputError(
+      "--out", options.out,
+      "a folder without another result, whose provenance.json is there; delete it to give that up");
+}
+
 int publish_part(const OutputOptions& options, work::StagedFolder& folder,
                  const std::vector<work::ResumableTable>& tables, Json origin, std::ostream& out) {
   const Part part = part_of(options).value();
@@ -65,7 +80,9 @@ int publish_part(const OutputOptions& options, work::StagedFolder& folder,
                                  {"words", that_matter(options.words)},
                                  {"tables", Json::array()}};
   for (const work::ResumableTable& table : tables)
-    kept["tables"].push_back({{"file", table.name}, {"settings", rows_of_part(table, part).settings}});
+    kept["tables"].push_back({{"file", table.name},
+                              {"settings", rows_of_part(table, part).settings},
+                              {"sha256", sha256_of_file(folder.resumable(table.name))}});
   write_whole(folder.path() / "provenance.json", origin.dump(1) + "\n");
   folder.publish();
   if (options.json)

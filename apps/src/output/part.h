@@ -26,6 +26,10 @@ struct Part {
 /// The rows of the part: as near to count/N as may be, with settings that say so.
 [[nodiscard]] work::ResumableTable rows_of_part(work::ResumableTable table, const Part& part);
 
+/// Throws InputError naming --out where the folder holds another finished result than this part.
+void require_no_other_result(const OutputOptions& options, const work::StagedFolder& folder,
+                             const Part& part);
+
 /// Publishes the tables of a part with what `merge` asks of them. Returns the exit status.
 int publish_part(const OutputOptions& options, work::StagedFolder& folder,
                  const std::vector<work::ResumableTable>& tables, Json origin, std::ostream& out);

@@ -81,7 +81,10 @@ void Progress::finish() {
 
 bool run_with_bar(work::ResumableTable table, work::StagedFolder& folder, const std::string& label,
                   const OutputOptions& options, std::ostream& out) {
-  if (const auto part = part_of(options)) table = rows_of_part(std::move(table), *part);
+  if (const auto part = part_of(options)) {
+    require_no_other_result(options, folder, *part);
+    table = rows_of_part(std::move(table), *part);
+  }
   Bar bar(label, table.count - table.first, options.quiet);
   std::uint64_t done = 0;
   table.progress = [&](std::uint64_t next) {

@@ -36,8 +36,13 @@ void require_motion(const BodyMotion& motion, const std::string& name) {
 }
 
 Vector3d center_of(const Placed& placed) {
-  const CombinedEllipsoid* quadric = placed.body.quadric();
-  return quadric ? placed.pose.to_world(quadric->center()) : placed.pose.position;
+  if (const CombinedEllipsoid* quadric = placed.body.quadric())
+    return placed.pose.to_world(quadric->center());
+  // An ellipsoid with a margin.
+  if (const Convex* convex = placed.body.convex(); convex && convex->pieces().size() == 1)
+    if (const Convex::Piece& only = convex->pieces().front(); only.rank == 3)
+      return placed.pose.to_world(only.center);
+  return placed.pose.position;
 }
 
 /// The farthest a point of the body is from `from`, in its frame; rounded.

@@ -187,6 +187,13 @@ class FitRobot(Files):
             self.assertEqual(run("check", self.write("scene.yaml", f"agent: {{center: [9, 0, 0], semi_axes: [1, 1, 1], "
                                  f"velocity: [-1, 0, 0]}}\nobstacle: {{robot: {written}}}\n")).returncode, 0)
 
+    def test_names_with_quotes_and_entities(self):
+        text = """<robot name="r"><link name="l &quot;x&quot; &lt;1&gt;"><collision name='q"u'>
+  <geometry><mesh filename="cube.obj"/></geometry></collision></link></robot>"""
+        _, new, written = self.fit("quoted.urdf", text, "--kinds", "box")
+        self.assertEqual([e.get("name") for e in ElementTree.fromstring(new).iter("collision")], ['q"u_fit_0'])
+        self.assertEqual(run("fit", os.path.join(self.folder, "quoted.urdf"), "--check", written).returncode, 0)
+
     def test_check_tells_a_link_that_sticks_out(self):
         _, new, _ = self.fit("robot.sdf", SDF, "--kinds", "box,sphere", "--pieces", "2")
         old = os.path.join(self.folder, "robot.sdf")

@@ -103,6 +103,16 @@ class FitSolids(Files):
         for kind in KINDS:
             self.assert_contains(fit(self.write("far.xyz", rows(far)), "--shape", kind), far)
 
+    def test_corners_of_triangles_without_area_are_inside(self):
+        points = [[0, 0, 0], [1, 0, 0.1], [0.2, 1, 0.1], [0.1, 0.3, 1], [5, 5, 5]]
+        faces = [(0, 1, 2), (0, 1, 3), (0, 2, 3), (4, 4, 1)]
+        file = self.write("lone.obj", obj(points, faces))
+        for kind in KINDS:
+            self.assert_contains(fit(file, "--shape", kind), points)
+        long = [[8 + x, y, z] for x, y, z in CUBE]
+        joined = self.write("joined.obj", obj(CUBE + long, list(SIDES) + [tuple(i + 8 for i in f) for f in SIDES] + [(0, 8, 8)]))
+        self.assert_contains(fit(joined, "--kinds", "box,sphere", "--pieces", "2"), CUBE + long, [(0, 8, 8)])
+
     def test_least_bodies_are_found(self):
         cases = [("box", [[2 * x, 3 * y, z] for x, y, z in CUBE], 48),
                  ("cylinder", cylinder_points(2, 5), 20 * math.pi),

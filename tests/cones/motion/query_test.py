@@ -75,6 +75,19 @@ obstacle: {box: {half_widths: [1, 5, 5]}, center: [%s, 0, 0]}
                 self.assertIn(STRAIGHT, refused.stderr)
                 self.assertEqual(refused.stderr.count("\n"), 1, refused.stderr)
 
+    def test_an_ellipsoid_with_a_margin_turns_about_its_center(self):
+        """Sphere swollen or not: as far from a ball as the two stand, however it spins."""
+        for margin in (0, 0.2):
+            turning = {"semi_axes": [0.5, 0.5, 0.4], "center": [5, 0, 0], "spin": [0, 0, 1], **({"margin": margin} if margin else {})}
+            answer = self.asked(ball([0, 5, 0], 0.2), turning, horizon=2)
+            self.assertEqual(answer["verdict"], "out")
+            self.assertAlmostEqual(answer["clearance"], math.sqrt(50) - 0.7 - margin, delta=0.1)
+        # A bar of half length 2.2 sweeps a ball 2 m beside its center a quarter of a turn later, less the ball's width.
+        bar = {"semi_axes": [2, 0.1, 0.1], "margin": 0.2, "center": [5, 0, 0], "spin": [0, 0, 1]}
+        answer = self.asked(ball([5, 2, 0], 0.2), bar, horizon=2)
+        self.assertEqual(answer["verdict"], "in")
+        self.assertTrue(1.2 < answer["time_to_contact"] < math.pi / 2)
+
     def test_a_scene_of_straight_motion_is_answered_as_its_case(self):
         a, b = ball([0, 0, 0], 1), ball([5, 0, 0], 2)
         case = engagement(a, b, [4, 3, 0])

@@ -140,7 +140,7 @@ INSTANTIATE_TEST_SUITE_P(
                 "after it"},
         BadFile{"las_points_after_end", "a.las", las_with(96, little(100000U)), "from byte 100000",
                 "after it"},
-        BadFile{"las_compressed", "a.laz", las_with(104, "\x83"), "without LASzip's record", "LAZ"},
+        BadFile{"las_compressed", "a.laz", las_with(104, "\x80"), "without LASzip's record", "LAZ"},
         BadFile{"las_format_11", "a.las", las_with(104, "\x0b"), "point format 11", "0 to 10"},
         BadFile{"las_short_records", "a.las", las_with(105, little(std::uint16_t{19})), "19 bytes",
                 "20 bytes"},

@@ -247,9 +247,9 @@ TEST(Certify, TenTimesAsManySamplesOfTheSameWayChangeNoVerdict) {
     else
       EXPECT_NEAR(one.to, other.to, 1e-5) << i;
   }
-  EXPECT_GT(counts[0], 5);
-  EXPECT_GT(counts[1], 5);
-  EXPECT_GT(counts[2], 0);
+  for (const TrackVerdict verdict : {TrackVerdict::apart, TrackVerdict::contact})
+    EXPECT_GT(counts[static_cast<std::size_t>(verdict)], 5);
+  EXPECT_GT(counts[static_cast<std::size_t>(TrackVerdict::nearer)], 0);
 }
 
 /// Two balls that fly towards each other: all times by hand.

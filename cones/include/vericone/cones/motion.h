@@ -25,8 +25,8 @@ struct BodyMotion {
   /// Slows down along the velocity, m/s^2, until it stands, at |velocity| / braking; then it stays there (and
   /// spins on). 0: it does not brake. Not beside an acceleration.
   double braking = 0;
-  /// What it turns about, in the world at t = 0, metres. Left out: the center of an ellipsoid or a combined
-  /// quadric, of others the origin of their own frame (Pose::position).
+  /// What it turns about, in the world at t = 0, metres. Left out: the center of an ellipsoid (also of one
+  /// with a margin) or a combined quadric, of others the origin of their own frame (Pose::position).
   std::optional<Eigen::Vector3d> center = {};
 
   /// Whether the velocity is all there is.

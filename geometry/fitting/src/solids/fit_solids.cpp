@@ -57,6 +57,13 @@ std::vector<Vector3d> points_of(const CanonicalSample& sample, const Chords& cho
       points.insert(points.end(), chords[i].begin(), chords[i].end());
     }
   }
+  // Corners of triangles without area alone, which are in no group.
+  if (sample.is_mesh() && group == 0) {
+    std::vector<char> grouped(sample.points.size(), 0);
+    for (const auto& t : sample.triangles)
+      for (const std::uint32_t corner : t) grouped[corner] = 1;
+    for (std::size_t i = 0; i < wanted.size(); ++i) wanted[i] = char(wanted[i] || !grouped[i]);
+  }
   for (std::size_t i = 0; i < wanted.size(); ++i)
     if (wanted[i]) points.push_back(sample.points[i]);
   return points;
@@ -138,8 +145,8 @@ Solid solid_to_world(const Solid& solid, const Frame& frame) {
   return result;
 }
 
-/// What each of the sample's own points and triangles belongs to. Triangles without area go to the piece that
-/// contains all of their corners, else to one that a corner belongs to.
+/// What each of the sample's own points and triangles belongs to. Triangles without area go to a piece that a
+/// corner belongs to, or to the first where one belongs to none.
 Assignment assignment_of_solids(const Sample& sample, const CanonicalSample& canon,
                                 const SolidGroups& groups) {
   std::vector<int> of_point(canon.points.size(), -1);
@@ -164,6 +171,8 @@ Assignment assignment_of_solids(const Sample& sample, const CanonicalSample& can
     const auto found = std::lower_bound(known.begin(), known.end(), std::make_pair(key, 0));
     const bool is_there = found != known.end() && found->first == key;
     int home = is_there ? found->second : -1;
+    if (std::any_of(key.begin(), key.end(), [&](std::uint32_t corner) { return of_point[corner] < 0; }))
+      home = 0;
     for (const std::uint32_t corner : key)
       if (home < 0) home = of_point[corner];
     result.triangles.push_back(std::max(home, 0));

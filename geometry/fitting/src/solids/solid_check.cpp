@@ -271,8 +271,11 @@ void enclose(Solid& solid, const std::vector<Vector3d>& points, double margin, d
       return a == SolidCheck::Answer::yes || (a == SolidCheck::Answer::unsure && check.contains_exactly(x));
     });
   };
-  for (int exponent = 45; exponent >= 20; --exponent) {
-    const Solid tried = grown(solid, exponent == 45 ? 0 : std::ldexp(reach, -exponent));
+  // Some roundings are enough, but for triangles without area that lead from piece to piece.
+  double farthest = reach;
+  for (const Vector3d& x : points) farthest = std::max(farthest, 2 * (x - solid.center).norm() + margin);
+  for (int exponent = 45; exponent >= 0; --exponent) {
+    const Solid tried = grown(solid, exponent == 45 ? 0 : std::ldexp(farthest, -exponent));
     if (!contains_all(tried)) continue;
     solid = tried;
     return;

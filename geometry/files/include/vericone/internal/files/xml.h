@@ -28,6 +28,6 @@ struct Element {
 
 /// The outermost element. Throws InputError of refuse(). Memory: some ten times the text, at most 500,000
 /// elements, 50 within one another.
-Element parse(const std::string& text);
+[[nodiscard]] Element parse(const std::string& text);
 
 }  // namespace vericone::xml

@@ -8,6 +8,7 @@
 #include <vericone/fitting/hull.h>
 #include <array>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
