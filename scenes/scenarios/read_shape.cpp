@@ -8,6 +8,7 @@
 #include "input/field_table.h"
 #include "input/fields.h"
 #include "input/file_body.h"
+#include "input/motions.h"
 #include "input/planar_body.h"
 #include "input/spatial_body.h"
 #include "json/json_value.h"
@@ -191,8 +192,10 @@ simulation::ShapeInTime read_shape(const Json& given, const std::string& path,
 Json shape_schemas() {
   Json shape = shape_fields().schema();
   const Json body = input::body_schema()["$defs"]["body"]["properties"];
+  const Json moving = input::motion_schema();
   for (const auto& [name, field] : body.items())
-    if (name != "velocity" && !shape["properties"].contains(name)) shape["properties"][name] = of_body(name);
+    if (name != "velocity" && !moving.contains(name) && !shape["properties"].contains(name))
+      shape["properties"][name] = of_body(name);
   const Json number{{"type", "number"}};
   return {{"shape", std::move(shape)},
           {"oscillation",
