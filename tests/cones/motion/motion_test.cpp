@@ -174,8 +174,12 @@ TEST(Motion, RoundBodiesDoNotTurnAboutTheirAxis) {
 // Sweeps: the bodies at many instants, placed by Eigen.
 
 Placed moved(const Placed& body, const BodyMotion& motion, double t) {
-  const Vector3d center = motion.center.value_or(
-      body.body.quadric() ? body.pose.to_world(body.body.quadric()->center()) : body.pose.position);
+  Vector3d own = Vector3d::Zero();  // in its frame
+  if (const auto* quadric = body.body.quadric()) own = quadric->center();
+  const Convex* convex = body.body.convex();  // an ellipsoid with a margin is one piece
+  if (convex && convex->pieces().size() == 1 && convex->pieces()[0].rank == 3)
+    own = convex->pieces()[0].center;
+  const Vector3d center = motion.center.value_or(body.pose.to_world(own));
   const Vector3d shift = t * motion.velocity + 0.5 * t * t * motion.acceleration;
   Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
   if (const double rate = motion.spin.norm(); rate > 0)
