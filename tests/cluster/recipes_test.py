@@ -133,7 +133,7 @@ class Slurm(Recipe):
         return dict(line.split() for line in out.splitlines())
 
     def wait(self, what, condition):
-        deadline = time.monotonic() + 240
+        deadline = time.monotonic() + 400
         while not condition():
             self.assertLess(time.monotonic(), deadline, what)
             time.sleep(0.2)
