@@ -27,7 +27,7 @@ class Groups {
     std::vector<Piece> pieces;
     std::vector<Eigen::Vector3d> middles;
     Eigen::Vector3d reach = Eigen::Vector3d::Zero();  // the largest |coordinate| of corners along each axis
-    bool convex = false;  // some have flat, round and straight parts
+    bool convex = false;                              // some have flat, round and straight parts
     explicit Side(const Stated& stated);
   };
   /// Of a leaf of the search: some pieces of the obstacle, or a proof of one of them.

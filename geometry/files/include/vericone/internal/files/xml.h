@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// XML as robots and meshes are described in it: elements, attributes and text. Declarations of document types,
-// and with them entities and other files, are refused.
+// XML as robots and meshes are described in it: elements, attributes and text. Declarations of document
+// types, and with them entities and other files, are refused.
 #pragma once
 
 #include <string>
