@@ -108,7 +108,8 @@ class Slurm(Recipe):
         with open(config, "w", encoding="utf-8") as f:
             f.write("\n".join([
                 "ClusterName=vericone", f"SlurmctldHost={host}(127.0.0.1)", f"SlurmUser={user}", f"SlurmdUser={user}",
-                "AuthType=auth/munge", f"AuthInfo=socket={munge}", "CredType=cred/munge", f"SlurmctldPort={free_port()}",
+                # cred_expire is also how long what is queued again has to wait
+                "AuthType=auth/munge", f"AuthInfo=socket={munge},cred_expire=10", "CredType=cred/munge", f"SlurmctldPort={free_port()}",
                 f"SlurmdPort={free_port()}", f"StateSaveLocation={here}/state", f"SlurmdSpoolDir={here}/spool",
                 f"SlurmctldPidFile={here}/slurmctld.pid", f"SlurmdPidFile={here}/slurmd.pid", "ProctrackType=proctrack/linuxproc",
                 "TaskPlugin=task/none", "JobAcctGatherType=jobacct_gather/none", "AccountingStorageType=accounting_storage/none",

@@ -38,9 +38,16 @@ def code_of(notebook: Any) -> list[Any]:
     return [cell for cell in notebook.cells if cell.cell_type == "code"]
 
 
-def words(cell: Any) -> list[object]:
-    """What a cell shows, without its numbers, of which some are times: kinds of outputs, and texts."""
-    return [(sorted(output.get("data", {})), re.sub(r"[-+]?[\d.]+(e[-+]\d+)?", "#", output.get("text", ""))) for output in cell.outputs]
+def words(cell: Any) -> list[tuple[list[str], str]]:
+    """What a cell shows, without its numbers, of which some are times: kinds of outputs, and texts. A kernel sends one
+    text in as many messages as its timer likes."""
+    shown: list[tuple[list[str], str]] = []
+    for output in cell.outputs:
+        data, text = sorted(output.get("data", {})), output.get("text", "")
+        if shown and not data and not shown[-1][0]:
+            text = shown.pop()[1] + text
+        shown.append((data, text))
+    return [(data, re.sub(r"[-+]?[\d.]+(e[-+]\d+)?", "#", text)) for data, text in shown]
 
 
 @pytest.mark.parametrize("file", NOTEBOOKS, ids=lambda file: str(file.stem))
