@@ -28,6 +28,7 @@ int reach_command(CommandLine& line);
 int certify_command(CommandLine& line);
 int simulate_command(CommandLine& line);
 int campaign_command(CommandLine& line);
+int swarm_command(CommandLine& line);
 int trials_command(CommandLine& line);
 int claims_command(CommandLine& line);
 int figures_command(CommandLine& line);

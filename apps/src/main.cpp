@@ -20,6 +20,7 @@ int main(int argc, char** argv) {
                                                 {"certify", certify_command},
                                                 {"simulate", simulate_command},
                                                 {"campaign", campaign_command},
+                                                {"swarm", swarm_command},
                                                 {"trials", trials_command},
                                                 {"claims", claims_command},
                                                 {"figures", figures_command},

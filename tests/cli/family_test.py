@@ -101,14 +101,14 @@ class Family(unittest.TestCase):
                 self.assertRegex(text, r"[ ,]%s[ ,\n]" % option, name)
 
     def test_options_mean_the_same_everywhere(self):
-        have = {"--quiet": "cone query law estimate accuracy signmap gallery shapes reach certify simulate campaign trials claims figures pursue scan fit "
+        have = {"--quiet": "cone query law estimate accuracy signmap gallery shapes reach certify simulate campaign swarm trials claims figures pursue scan fit "
                            "track verify",
-                "--json": "cone query law estimate accuracy signmap gallery shapes reach certify simulate campaign trials claims figures pursue scan fit "
+                "--json": "cone query law estimate accuracy signmap gallery shapes reach certify simulate campaign swarm trials claims figures pursue scan fit "
                           "track verify",
-                "--out": "cone estimate accuracy signmap gallery shapes simulate campaign trials claims figures pursue scan fit track",
-                "--no-figures": "cone accuracy signmap gallery shapes simulate campaign trials pursue scan fit track",
-                "--threads": "cone query accuracy gallery campaign trials pursue verify",
-                "--seed": "accuracy signmap campaign trials pursue scan fit verify"}
+                "--out": "cone estimate accuracy signmap gallery shapes simulate campaign swarm trials claims figures pursue scan fit track",
+                "--no-figures": "cone accuracy signmap gallery shapes simulate campaign swarm trials pursue scan fit track",
+                "--threads": "cone query accuracy gallery campaign swarm trials pursue verify",
+                "--seed": "accuracy signmap campaign swarm trials pursue scan fit verify"}
         for option, commands in have.items():
             for name in commands.split():
                 if name in NEEDS and name not in PROGRAMS:

@@ -46,6 +46,7 @@ WRITERS = {
                           "--no-figures", "--quiet"],
     "estimate": ["estimate", "track.csv"],
     "campaign": ["campaign", "-N", "15", "--threads", "1", "--no-figures", "--quiet"],
+    "swarm": ["swarm", "circle", "-N", "3", "--threads", "1", "--no-figures", "--quiet"],
     "cone": ["cone", "scene.yaml", "--map", "0.05", "--no-figures"],
     "cone in the plane": ["cone", "planar.yaml", "--no-figures"],
     "cone of pieces": ["cone", "mesh.yaml", "--map", "0.05", "--no-figures"],
@@ -73,6 +74,7 @@ LONG = {
     "accuracy of many planes": (["accuracy", "-N", "1000", "--planes", "50000,100000", "--no-figures", "--out", "out"], None),
     "accuracy of dents": (["accuracy", "--obstacle", "star", "-N", "100000", "--tolerance", "0.001", "--no-figures"], None),
     "campaign": (["campaign", "-N", "100000000", "--no-figures"], None),
+    "swarm": (["swarm", "sphere", "-N", "5000", "--no-figures"], "flying"),
     "trials": (["trials", "noise.yaml", "-N", "10000000", "--no-figures"], None),
     "cone": (["cone", "near.yaml", "--map", "0.0001", "--threads", "1"], None),
     "cone with a folder": (["cone", "near.yaml", "--map", "0.0001", "--threads", "1", "--out", "out"], None),
@@ -266,7 +268,7 @@ class WritersRefused(InPreparedFolder):
                 with self.subTest(command=name):
                     shutil.rmtree(self.out, ignore_errors=True)
                     os.mkdir(self.out)
-                    names = ("accuracy", "engagement", "scans", "campaign", "trials", "cone", "cone_map", "signmap", "simulation", "fit",
+                    names = ("accuracy", "engagement", "scans", "campaign", "swarm", "trials", "cone", "cone_map", "signmap", "simulation", "fit",
                              "visible_section", "scan_convergence", "tracks", "pursuit", "starts")
                     for picture in names:
                         self.write("out/%s.png" % picture, "old")

@@ -46,6 +46,7 @@ EXAMPLES = {
     "certify": "certify docs/examples/tracks/tracks.yaml --quiet",
     "simulate": "simulate docs/examples/scenarios/elephant.yaml --no-figures --quiet",
     "campaign": "campaign -N 500 --no-figures --quiet",
+    "swarm": "swarm circle -N 30 --no-figures --quiet",
     "trials": "trials docs/examples/scenarios/noise.yaml -N 40 --levels x1,x2 --laws di,clearance --no-figures --quiet",
     "claims": "claims 5.4.2 --quiet",
     "paper": "paper new out/papers/mine",

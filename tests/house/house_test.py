@@ -24,6 +24,7 @@ MAY_INCLUDE = {
     "c": ("geometry", "cones", "guidance"),
     "simulation": ("geometry", "cones", "guidance"),
     "vehicles": ("geometry", "simulation"),
+    "swarm": ("geometry", "cones", "simulation"),
     "scenes": ("geometry", "files", "octomap", "cones"),
     "work": ("geometry", "scenes"),
     "scenarios": ("geometry", "files", "cones", "guidance", "simulation", "vehicles", "scenes"),
@@ -50,8 +51,8 @@ def library_of(path):
         return parts[1]
     if parts[0] == "guidance" and parts[1] == "simulation":
         return "simulation"
-    if parts[0] == "guidance" and parts[1] == "vehicles":
-        return "vehicles"
+    if parts[0] == "guidance" and parts[1] in ("vehicles", "swarm"):
+        return parts[1]
     if parts[0] == "scenes" and parts[1] in ("work", "scenarios", "fit", "scan", "pursuits"):
         return {"fit": "fits", "scan": "scanning"}.get(parts[1], parts[1])
     if parts[0] == "vision" and parts[1] in ("scene", "footage", "pursuit"):

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// What is proved of all pairs of a swarm, one block of time after the other.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "plan.h"
+
+namespace vericone::swarm {
+
+/// Agents and obstacles, whose numbers come after those of the agents.
+class BlockProof {
+ public:
+  BlockProof(const std::vector<Agent>& agents, const std::vector<Obstacle>& obstacles, int threads);
+
+  /// What all agents flew in a step from `t` on.
+  void add(const std::vector<Flown>& flown, double t, double step);
+  /// Proves what was added since the last time, and forgets it. Memory: what a block needs.
+  void prove(double until);
+
+  [[nodiscard]] const std::vector<TouchedPair>& touched() const { return touched_; }
+  [[nodiscard]] const std::vector<TouchedPair>& undecided() const { return undecided_; }
+  /// m: the other pairs were never nearer, proved.
+  [[nodiscard]] double least_distance() const { return least_; }
+
+ private:
+  /// Of a pair in a block: what a plane a piece of time proves, m; not positive: open.
+  struct Bound {
+    double gap;
+    std::size_t a, b;
+    bool operator<(const Bound& other) const {
+      return gap != other.gap ? gap < other.gap : std::pair(a, b) < std::pair(other.a, other.b);
+    }
+  };
+  struct Ball {
+    Eigen::Vector3d middle;
+    double radius;
+  };
+  [[nodiscard]] Ball swept(std::size_t i, double until) const;
+  [[nodiscard]] Bound bound(std::size_t a, std::size_t b, double until) const;
+  [[nodiscard]] simulation::Track track(std::size_t i, double until) const;
+  void settle(std::vector<Bound> bounds, double until);
+  [[nodiscard]] bool have_met(std::size_t a, std::size_t b) const;
+
+  std::vector<Solid> solids_;
+  std::vector<Prepared> bodies_;
+  std::size_t agents_;
+  int threads_;
+  double from_ = 0;                            // s, of the block
+  std::vector<std::vector<PlanLeg>> legs_;     // of each, times of the flight
+  std::vector<std::vector<std::size_t>> met_;  // partners above that a body has touched
+  std::vector<TouchedPair> touched_, undecided_;
+  double least_;
+};
+
+}  // namespace vericone::swarm
