@@ -83,31 +83,6 @@ Json candidates_json(const std::vector<fitting::Candidate>& candidates, Mode mod
   return list;
 }
 
-Json certificate_json(const fitting::FitResult& result, const fits::Scan& scan) {
-  const fitting::Certificate& c = result.certificate;
-  const bool mesh = scan.sample.is_mesh();
-  return {{"points", c.points},
-          {"points_inside", c.points_inside},
-          {"triangles", mesh ? Json(c.triangles) : Json(nullptr)},
-          {"triangles_inside", mesh ? Json(c.triangles_inside) : Json(nullptr)},
-          {"margin", c.margin},
-          {"margins_inside", c.margins_inside},
-          {"by_exact", c.by_exact},
-          {"touching", c.touching},
-          {"statement", statement(result, scan)}};
-}
-
-Json distance_json(const std::optional<fitting::DistanceStatistics>& d) {
-  if (!d) return nullptr;
-  return {
-      {"mean", number_or_null(d->mean)}, {"rms", number_or_null(d->rms)}, {"max", number_or_null(d->max)}};
-}
-
-std::string of_all(std::size_t part, std::size_t all, const std::string& what) {
-  if (part == all) return "all " + std::to_string(all) + " " + what;
-  return std::to_string(part) + " of " + std::to_string(all) + " " + what;
-}
-
 }  // namespace
 
 std::string to_string(Mode mode) {
@@ -120,6 +95,28 @@ std::string to_string(Mode mode) {
       return "containing";
   }
   return "";
+}
+
+std::string of_all(std::size_t part, std::size_t all, const std::string& what) {
+  return (part == all ? "all " : std::to_string(part) + " of ") + std::to_string(all) + " " + what;
+}
+
+Json certificate_json(const fitting::Certificate& c, bool mesh, const std::string& statement) {
+  return {{"points", c.points},
+          {"points_inside", c.points_inside},
+          {"triangles", mesh ? Json(c.triangles) : Json(nullptr)},
+          {"triangles_inside", mesh ? Json(c.triangles_inside) : Json(nullptr)},
+          {"margin", c.margin},
+          {"margins_inside", c.margins_inside},
+          {"by_exact", c.by_exact},
+          {"touching", c.touching},
+          {"statement", statement}};
+}
+
+Json distance_json(const std::optional<fitting::DistanceStatistics>& d) {
+  if (!d) return nullptr;
+  return {
+      {"mean", number_or_null(d->mean)}, {"rms", number_or_null(d->rms)}, {"max", number_or_null(d->max)}};
 }
 
 std::string statement(const fitting::FitResult& result, const fits::Scan& scan) {
@@ -156,7 +153,7 @@ Json fit_json(const fits::Scan& scan, const fitting::FitOptions& options, const 
   json["volume_ratio_bound"] = positive(result.volume_ratio_bound);
   json["stationarity"] = containing ? number_or_null(result.stationarity) : Json(nullptr);
   json["certified"] = result.certified;
-  json["certificate"] = certificate_json(result, scan);
+  json["certificate"] = certificate_json(result.certificate, scan.sample.is_mesh(), statement(result, scan));
   json["inflation"] = number_or_null(result.inflation);
   json["mean_distance"] = number_or_null(result.scan_to_hull.mean);
   json["rms_distance"] = number_or_null(result.scan_to_hull.rms);

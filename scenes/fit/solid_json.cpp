@@ -4,6 +4,7 @@
 #include <vericone/geometry/error.h>
 #include <algorithm>
 
+#include "fit/fit_json.h"
 #include "input/fields.h"
 #include "json/json_value.h"
 
@@ -18,24 +19,6 @@ double size_field(const Json& sizes, const std::string& path, const char* field)
       input::read_number(input::require_field(sizes, path, field, "metres, 0 or more"), name, " (metres)");
   if (!(x >= 0)) throw InputError(name, to_text(x), "0 or more (metres)");
   return x;
-}
-
-Json distance_fields(const fitting::DistanceStatistics& d) {
-  return {{"mean", number_or_null(d.mean)}, {"rms", number_or_null(d.rms)}, {"max", number_or_null(d.max)}};
-}
-
-Json solid_certificate_json(const fitting::SolidFit& result, const fits::Scan& scan) {
-  const fitting::Certificate& c = result.certificate;
-  const bool mesh = scan.sample.is_mesh();
-  return {{"points", c.points},
-          {"points_inside", c.points_inside},
-          {"triangles", mesh ? Json(c.triangles) : Json(nullptr)},
-          {"triangles_inside", mesh ? Json(c.triangles_inside) : Json(nullptr)},
-          {"margin", c.margin},
-          {"margins_inside", c.margins_inside},
-          {"by_exact", c.by_exact},
-          {"touching", c.touching},
-          {"statement", solid_statement(result, scan)}};
 }
 
 Json solid_pieces_json(const fitting::SolidFit& result) {
@@ -129,9 +112,6 @@ Solid solid_of(const Json& fields, const std::string& path) {
 
 std::string solid_statement(const fitting::SolidFit& result, const fits::Scan& scan) {
   const fitting::Certificate& c = result.certificate;
-  const auto of_all = [](std::size_t part, std::size_t all, const char* what) {
-    return (part == all ? "all " : std::to_string(part) + " of ") + std::to_string(all) + " " + what;
-  };
   std::string text = of_all(c.points_inside, c.points, "points");
   if (scan.sample.is_mesh()) text += " and " + of_all(c.triangles_inside, c.triangles, "triangles");
   text += result.pieces.size() == 1 ? " are inside" : " are inside, each in one of the pieces";
@@ -168,12 +148,13 @@ Json solid_fit_json(const fits::Scan& scan, const fitting::SolidOptions& options
   json["ellipsoid_volume"] = number_or_null(result.ellipsoid_volume);
   for (const char* field : {"volume_ratio_bound", "stationarity"}) json[field] = nullptr;
   json["certified"] = result.certified;
-  json["certificate"] = solid_certificate_json(result, scan);
+  json["certificate"] =
+      certificate_json(result.certificate, scan.sample.is_mesh(), solid_statement(result, scan));
   json["inflation"] = nullptr;
   json["mean_distance"] = number_or_null(result.scan_to_hull.mean);
   json["rms_distance"] = number_or_null(result.scan_to_hull.rms);
   json["max_distance"] = number_or_null(result.scan_to_hull.max);
-  json["hull_distance"] = distance_fields(result.protrusion);
+  json["hull_distance"] = distance_json(result.protrusion);
   for (const char* field : {"why", "candidates"}) json[field] = nullptr;
   Json notes = Json::array();
   for (const auto& list : {scan.notes, solid_notes(options, result)})

@@ -14,6 +14,7 @@
 #include <string>
 
 #include "distance/body_distance.h"
+#include "distance/distance_sum.h"
 #include "distance/scan_distance.h"
 
 namespace vericone::fitting {
@@ -21,25 +22,6 @@ namespace {
 
 using Eigen::Vector3d;
 using LongVector = Eigen::Matrix<long double, 3, 1>;
-
-/// Sums with more digits than doubles have, so that the order of the points does not show.
-class Statistics {
- public:
-  void add(double distance) {
-    ++count_;
-    sum_ += distance;
-    squares_ += static_cast<long double>(distance) * distance;
-    max_ = std::max(max_, distance);
-  }
-  DistanceStatistics result() const {
-    if (count_ == 0) return {};
-    return {static_cast<double>(sum_ / count_), static_cast<double>(std::sqrt(squares_ / count_)), max_};
-  }
-
- private:
-  long double count_ = 0, sum_ = 0, squares_ = 0;
-  double max_ = 0;
-};
 
 void require_pieces(const std::vector<Piece>& pieces) {
   if (pieces.empty()) throw InputError("pieces", "none", "at least one");
@@ -85,7 +67,7 @@ DistanceStatistics scan_to_hull(const std::vector<Piece>& pieces, const Sample& 
   std::vector<BodyDistance> bodies;
   for (const Piece& p : pieces)
     if (!p.footprint) bodies.emplace_back(p.body);
-  Statistics all;
+  DistanceSum all;
   for (const std::uint32_t i : require_points(sample)) {
     checkpoint();
     const Vector3d& x = sample.points[i];
@@ -112,7 +94,7 @@ std::optional<DistanceStatistics> hull_to_scan(const std::vector<Piece>& pieces,
   // Equal steps of area, and within a triangle a sequence that fills it evenly (multiples of the powers of
   // the root of x^3 = x + 1).
   const Boundary boundary(pieces);
-  Statistics all;
+  DistanceSum all;
   std::size_t at = 0;
   for (int k = 0; k < samples; ++k) {
     checkpoint();

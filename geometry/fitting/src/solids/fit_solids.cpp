@@ -14,8 +14,10 @@
 #include <utility>
 
 #include "containing/partition.h"
+#include "distance/distance_sum.h"
 #include "distance/scan_distance.h"
 #include "solids/corners.h"
+#include "solids/solid_check.h"
 #include "solids/solid_partition.h"
 
 namespace vericone::fitting {
@@ -69,28 +71,13 @@ std::vector<Vector3d> points_of(const CanonicalSample& sample, const Chords& cho
   return points;
 }
 
-Solid swollen(Solid solid, double by) {
-  switch (solid.kind) {
-    case SolidKind::cylinder:
-      solid.sizes(0) += by;
-      solid.sizes(1) += 2 * by;
-      break;
-    case SolidKind::box:
-      solid.sizes.array() += by;
-      break;
-    default:
-      solid.sizes(0) += by;
-  }
-  return solid;
-}
-
 Grouped with_solids(const CanonicalSample& sample, const Chords& chords, SolidGroups groups,
                     const SolidOptions& options) {
   Grouped result{std::move(groups), {}};
   for (int k = 0; k < result.groups.count; ++k) {
     const Solid found =
         smallest_of(corners_of(points_of(sample, chords, result.groups, k)), options.kinds, Effort::full);
-    result.solids.push_back(options.margin > 0 ? swollen(found, options.margin / sample.frame.scale) : found);
+    result.solids.push_back(options.margin > 0 ? grown(found, options.margin / sample.frame.scale) : found);
   }
   return result;
 }
@@ -181,24 +168,6 @@ Assignment assignment_of_solids(const Sample& sample, const CanonicalSample& can
     result.points.push_back(i == CanonicalSample::kUnused ? -1 : std::max(of_point[i], 0));
   return result;
 }
-
-class DistanceSum {
- public:
-  void add(double distance) {
-    ++count_;
-    sum_ += distance;
-    squares_ += static_cast<long double>(distance) * distance;
-    max_ = std::max(max_, distance);
-  }
-  DistanceStatistics result() const {
-    if (count_ == 0) return {};
-    return {double(sum_ / count_), double(std::sqrt(squares_ / count_)), max_};
-  }
-
- private:
-  long double count_ = 0, sum_ = 0, squares_ = 0;
-  double max_ = 0;
-};
 
 /// Of points at equal steps of area over the boundary of the union from the scan.
 DistanceStatistics protrusion_of(const std::vector<Solid>& solids, const Sample& sample) {

@@ -237,30 +237,6 @@ class Housing {
   Assignment homes_;
 };
 
-/// The sizes that a kind has, each larger by `by`.
-Solid grown(Solid s, double by) {
-  switch (s.kind) {
-    case SolidKind::sphere:
-      s.sizes(0) += by;
-      break;
-    case SolidKind::capsule:
-      s.sizes(0) += by;
-      break;
-    case SolidKind::cylinder:
-      s.sizes(0) += by;
-      s.sizes(1) += 2 * by;
-      break;
-    case SolidKind::box:
-      s.sizes.array() += by;
-      break;
-    case SolidKind::ellipsoid:
-      // All by one factor: a thin axis alone would let points out along the others.
-      s.sizes *= 1 + by / s.sizes.minCoeff();
-      break;
-  }
-  return s;
-}
-
 void enclose(Solid& solid, const std::vector<Vector3d>& points, double margin, double slack) {
   const double reach = solid.center.norm() + solid.reach() + margin;
   const auto contains_all = [&](const Solid& tried) {
@@ -285,6 +261,29 @@ void enclose(Solid& solid, const std::vector<Vector3d>& points, double margin, d
 }
 
 }  // namespace
+
+Solid grown(Solid s, double by) {
+  switch (s.kind) {
+    case SolidKind::sphere:
+      s.sizes(0) += by;
+      break;
+    case SolidKind::capsule:
+      s.sizes(0) += by;
+      break;
+    case SolidKind::cylinder:
+      s.sizes(0) += by;
+      s.sizes(1) += 2 * by;
+      break;
+    case SolidKind::box:
+      s.sizes.array() += by;
+      break;
+    case SolidKind::ellipsoid:
+      // All by one factor: a thin axis alone would let points out along the others.
+      s.sizes *= 1 + by / s.sizes.minCoeff();
+      break;
+  }
+  return s;
+}
 
 Certificate check(const std::vector<Solid>& solids, const Sample& sample, double margin) {
   return Housing(solids, sample, margin).certificate(margin);

@@ -36,6 +36,10 @@ class SolidCheck {
   Rational ball_;  // in the body's own coordinates, at least
 };
 
+/// Contains the solid with a ball of radius `by` about each point: the sizes that a kind has, each larger by
+/// it.
+Solid grown(Solid solid, double by);
+
 /// Throws InputError naming "pieces", "pieces[i]" or "margin".
 void require_solids(const std::vector<Solid>& solids, double margin);
 
