@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """`--part K/N` of the commands whose rows are in tables, and `vericone merge`: what they write together is byte for
 byte what one run writes."""
+import csv
 import json
 import os
 import re
@@ -13,7 +14,7 @@ import time
 import unittest
 
 sys.path.insert(0, os.path.join(os.path.dirname(__file__), "..", "cli"))
-from command import SOURCE, VERICONE, run
+from command import SOURCE, VERICONE, ball, engagement, run
 
 SCENARIO = os.path.join(SOURCE, "docs/examples/scenarios/noise.yaml")
 TETRAHEDRON = "OFF\n4 4 0\n0 0 0\n2 0 0\n0 3 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n"
@@ -107,6 +108,44 @@ class Merge(unittest.TestCase):
             json.dump(origin, f)
         self.refused(one, other, three, says=f"part: got {other} with version .* 000000000000, must be of version ")
 
+    def test_the_summary_is_that_of_the_rows(self):
+        """Its medians are found bit by bit, without keeping the rows."""
+        for count in ("1", "2", "301"):
+            folder = self.path(count)
+            self.assertEqual(run("campaign", "-N", count, "--laws", "slice,clearance", "--no-figures", "--quiet", "--out",
+                                 folder).returncode, 0)
+            with open(os.path.join(folder, "engagements.csv"), encoding="utf-8") as f:
+                next(f)
+                rows = list(csv.DictReader(f))
+            with open(os.path.join(folder, "summary.json"), encoding="utf-8") as f:
+                summary = json.load(f)
+            self.assertEqual(summary["engagements"], len(rows))
+            self.assertEqual(len(summary["laws"]), 4)
+            for law in summary["laws"]:
+                name, avoided = law["name"], [row for row in rows if row[law["name"]] == "avoided"]
+                peaks = sorted(float(row[name + " peak [m/s^2]"]) for row in avoided)
+                left = sorted(float(row[name + " left cone [s]"]) for row in avoided if row[name + " left cone [s]"])
+                peaks = [p for p in peaks if p > 0]
+                self.assertEqual(law["avoided"], len(avoided))
+                self.assertEqual(law["met"], sum(row[name] == "met" for row in rows))
+                self.assertEqual(law["made_worse"], sum(row[name] == "met" and row["straight"] == "avoided" for row in rows))
+                self.assertEqual(law["median_peak"], peaks[len(peaks) // 2] if peaks else None)
+                self.assertEqual(law["median_left_cone"], left[len(left) // 2] if left else None)
+                self.assertEqual(sum(law["least_distances"]), len(avoided))
+
+    def test_a_file_that_has_changed_is_named(self):
+        scenario = self.path("noise.yaml")
+        shutil.copy(SCENARIO, scenario)
+        words = ["trials", scenario, "-N", "4"]
+        parts = [self.part(words, k, 2) for k in (1, 2)]
+        with open(scenario, "a", encoding="utf-8") as f:
+            f.write("# later\n")
+        self.refused(*parts, says=f"{scenario}: got another content, must be what {parts[0]} was made of, SHA-256 [0-9a-f]{{64}}: ")
+        os.remove(scenario)
+        self.refused(*parts, says=f"{scenario}: got nothing, must be what {parts[0]} was made of")
+        shutil.copy(SCENARIO, scenario)
+        self.assertEqual(run("merge", *parts, "--no-figures", "--quiet", "--out", self.path("whole")).returncode, 0)
+
     def test_rows_that_are_not_the_parts_own_are_refused(self):
         words = command("campaign")
         parts = [self.part(words, k, 3) for k in (1, 2, 3)]
@@ -160,6 +199,50 @@ class Merge(unittest.TestCase):
         one = run("trials", SCENARIO, "--trial", "1", "--part", "1/2")
         self.assertEqual(one.returncode, 2)
         self.assertTrue(re.match("vericone: --part: got 1/2, must be left out with --trial", one.stderr), one.stderr)
+
+
+class QueryParts(unittest.TestCase):
+    """Answers of the parts of a file, one after the other, are those of the file."""
+
+    def setUp(self):
+        temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(temporary.cleanup)
+        self.file = os.path.join(temporary.name, "cases.jsonl")
+
+    def of_parts(self, of):
+        answers, status = [], 0
+        for k in range(1, of + 1):
+            result = run("query", self.file, "--part", f"{k}/{of}")
+            self.assertEqual(result.stderr, "")
+            answers.append(result.stdout)
+            status = max(status, result.returncode)
+        return answers, status
+
+    def test_answers_of_all_parts_are_those_of_the_file(self):
+        good = engagement(ball([0, 0, 0], 1), ball([9, 0.5, 0], 1), [1, 0, 0])
+        short = [json.dumps(good), "", "no case", "  ", json.dumps({**good, "id": "ä" * 40}), "{}", json.dumps({**good, "id": 2})]
+        # Three blocks and more of what the command reads at once.
+        long = [json.dumps({**good, "id": i, "obstacle_velocity": [0, 1e-3 * (i % 700), 0]}) for i in range(20_000)]
+        long[12_345] = "bad"
+        for lines, end, parts in ((short, "\n", (1, 2, 3, 7, 50)), (short, "", (2, 5)), (long, "\n", (1, 3, 16)), ([], "", (3,))):
+            with open(self.file, "w", encoding="utf-8") as f:
+                f.write("\n".join(lines) + (end if lines else ""))
+            whole = run("query", self.file)
+            for of in parts:
+                answers, status = self.of_parts(of)
+                self.assertEqual("".join(answers), whole.stdout)
+                self.assertEqual(status, whole.returncode)
+                if lines is long and of > 1:
+                    self.assertGreater(min(len(text) for text in answers), len(whole.stdout) / of / 2)
+            if lines is long:
+                self.assertIn("line 12346", "".join(answers))  # of the file, not of the part
+
+    def test_what_has_no_parts(self):
+        result = run("query", "-", "--part", "1/2", input="")
+        self.assertEqual((result.returncode, result.stdout), (2, ""))
+        self.assertEqual(result.stderr, "vericone: --part: got 1/2, must be left out, or given with a file: - is none\n")
+        result = run("query", "--scene", os.path.join(SOURCE, "docs/examples/first.yaml"), "--part", "1/2")
+        self.assertEqual((result.returncode, result.stderr), (2, "vericone: --part: got 1/2, must be left out with --scene\n"))
 
 
 if __name__ == "__main__":

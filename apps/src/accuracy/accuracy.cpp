@@ -330,7 +330,7 @@ int accuracy_command(CommandLine& line) {
       .words(1, -1)
       .commas();
   line.option("--seed", options.seed, "Seed of all random numbers");
-  part_option(line, options);
+  part_option(line, options.part);
   line.option("--out", options.out, "Folder for tables and pictures").shown_default("out/accuracy");
   line.option("--threads", options.threads, "Threads, 0: one per processor");
   line.negative_flag("--no-figures", options.figures, "Tables only");

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <vericone/geometry/error.h>
+#include <vericone/internal/simulation/montecarlo/flight.h>
 #include <vericone/simulation/montecarlo/campaign.h>
 #include <vericone/work/staged_folder.h>
 #include <cstdint>
@@ -67,7 +68,7 @@ int run_campaign(const CampaignOptions& options, std::ostream& out) {
   Json origin = provenance(options.command_line, table.threads, {});
   origin["seconds"] = seconds_since(start);
   if (!options.part.empty()) return publish_part(options, folder, {table}, std::move(origin), out);
-  const Summary found = summarise(read_table(folder.resumable(table.name), laws.size()), laws);
+  const Summary found = summarise_file(folder.resumable(table.name), laws);
   Results results{.summary = to_json(found),
                   .origin = std::move(origin),
                   .scripts = {"engagement_campaign.py"},
@@ -104,7 +105,7 @@ int campaign_command(CommandLine& line) {
   line.option("--reference", campaign.reference, "w, to which y is driven");
   line.option("--required", campaign.required, "Of the clearance law, metres");
   line.option("--step", campaign.step, "Between two commands, s");
-  part_option(line, campaign);
+  part_option(line, campaign.part);
   line.negative_flag("--no-figures", campaign.figures, "Tables only");
   line.flag("--quiet", campaign.quiet, "No progress");
   line.flag("--json", campaign.json, "Print JSON");

@@ -6,6 +6,8 @@
 #include <atomic>
 #include <condition_variable>
 #include <exception>
+#include <filesystem>
+#include <limits>
 #include <mutex>
 #include <optional>
 #include <ostream>
@@ -162,6 +164,29 @@ void require_cases(const std::string& text, const std::string& path) {
   input::require_kind(fields, input::FileKind::cases, path);
 }
 
+/// Of the bytes of a file those of a part, from the first to before the second.
+std::pair<std::uint64_t, std::uint64_t> bytes_of(const std::string& path, const std::optional<Part>& part) {
+  if (!part) return {0, std::numeric_limits<std::uint64_t>::max()};
+  if (!std::filesystem::is_regular_file(path))
+    throw InputError("--part", part->text(), "left out, or given with a file: " + path + " is none");
+  return share_of(std::filesystem::file_size(path), *part);
+}
+
+/// The lines of a block, whose first byte is `at`, that begin in `bytes`; `number` goes on to the first of
+/// them.
+std::string_view lines_within(std::string_view block, std::uint64_t at,
+                              const std::pair<std::uint64_t, std::uint64_t>& bytes, std::size_t& number) {
+  // A line begins behind the end of another one.
+  const auto first_from = [&](std::uint64_t byte) {
+    if (byte <= at) return std::size_t(0);
+    return byte - at > block.size() ? block.size()
+                                    : std::min(block.find('\n', byte - at - 1), block.size() - 1) + 1;
+  };
+  const std::size_t begin = first_from(bytes.first), end = first_from(bytes.second);
+  number += std::size_t(std::count(block.begin(), block.begin() + std::ptrdiff_t(begin), '\n'));
+  return block.substr(begin, end - begin);
+}
+
 }  // namespace
 
 Json parse_case(const std::string& line, std::size_t number) {
@@ -169,18 +194,22 @@ Json parse_case(const std::string& line, std::size_t number) {
   return parse_case_slowly(line, number, id);
 }
 
-int answer_cases(const std::string& path, const Answer& answer, std::ostream& out, int threads) {
+int answer_cases(const std::string& path, const Answer& answer, std::ostream& out, int threads,
+                 const std::optional<Part>& part) {
   input::TextSource cases(path, "a file of cases, one JSON object a line, or - for standard input");
+  const auto bytes = bytes_of(path, part);
   CaseParser parser;
   bool bad = false;
   std::string block;
   std::size_t number = 1;
-  while (!interrupted() && cases.next_lines(block, kBlockBytes)) {
-    if (number == 1 && path != "-") require_cases(block, path);
+  for (std::uint64_t at = 0; !interrupted() && at < bytes.second && cases.next_lines(block, kBlockBytes);
+       at += block.size()) {
+    if (at == 0 && path != "-") require_cases(block, path);
     // Many lines as long as the limit would take too much memory at once.
     const bool huge = block.size() > 4 * kBlockBytes;
     block.reserve(block.size() + kCasePadding);
-    bad |= answer_block(pieces_of(block, number), answer, huge ? 1 : threads, parser, out);
+    bad |= answer_block(pieces_of(lines_within(block, at, bytes, number), number), answer, huge ? 1 : threads,
+                        parser, out);
     // A consumer that feeds line by line waits for each answer.
     out.flush();
   }

@@ -7,10 +7,9 @@
 namespace vericone {
 
 /// Declares --part.
-inline void part_option(CommandLine& line, OutputOptions& options) {
-  line.option("--part", options.part,
-              "The K-th of N parts of the rows alone; vericone merge puts all N together")
-      .shown_type("K/N");
+inline void part_option(CommandLine& line, std::string& part,
+                        const std::string& what = "rows alone; vericone merge puts all N together") {
+  line.option("--part", part, "The K-th of N parts of the " + what).shown_type("K/N");
 }
 
 /// What provenance and parts keep of the words that were read.

@@ -36,6 +36,7 @@ struct FinishedPart {
   std::string version, commit;
   std::vector<std::string> words;  // from the command's name on
   std::vector<PartTable> tables;
+  std::map<std::string, std::string> inputs;  // SHA-256 by file
 };
 
 FinishedPart read_part(const std::string& folder) {
@@ -52,7 +53,10 @@ FinishedPart read_part(const std::string& folder) {
                        .version = origin.at("version").get<std::string>(),
                        .commit = origin.at("commit").get<std::string>(),
                        .words = part.at("words").get<std::vector<std::string>>(),
-                       .tables = {}};
+                       .tables = {},
+                       .inputs = {}};
+    for (const Json& input : origin.at("inputs"))
+      if (input.at("sha256").is_string()) found.inputs[input.at("file")] = input.at("sha256");
     for (const Json& table : part.at("tables"))
       found.tables.push_back({table.at("file").get<std::string>(), table.at("settings").get<std::string>(),
                               table.at("sha256").get<std::string>()});
@@ -115,6 +119,19 @@ std::vector<FinishedPart> parts_of(const std::vector<std::string>& folders) {
   std::vector<FinishedPart> all;
   for (auto& [number, part] : parts) all.push_back(std::move(part));
   return all;
+}
+
+/// The command reads its files again. Throws InputError naming the one that is not what the parts were made
+/// of.
+void require_inputs(const std::vector<FinishedPart>& parts) {
+  std::map<std::string, std::string> now;
+  for (const FinishedPart& part : parts)
+    for (const auto& [file, then] : part.inputs) {
+      if (!now.contains(file)) now[file] = fs::is_regular_file(file) ? sha256_of_file(file) : "";
+      if (now[file] != then)
+        throw InputError(file, now[file].empty() ? "nothing" : "another content",
+                         "what " + part.folder + " was made of, SHA-256 " + then + ": merge reads it again");
+    }
 }
 
 /// Adds the rows of a part's table; of the first one the lines before them too.
@@ -181,6 +198,7 @@ int merge_command(CommandLine& line) {
   line.flag("--json", options.json, "Print JSON");
   line.read();
   const std::vector<FinishedPart> parts = parts_of(folders);
+  require_inputs(parts);
   merge_tables(parts, options.out);
   std::vector<std::string> words = parts.front().words;
   words.insert(words.end(), {"--out", options.out, "--threads", std::to_string(options.threads)});

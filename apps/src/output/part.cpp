@@ -3,8 +3,8 @@
 
 #include <vericone/geometry/error.h>
 #include <algorithm>
-#include <array>
 #include <ostream>
+#include <tuple>
 
 #include "output/output_file.h"
 #include "work/file_hash.h"
@@ -21,13 +21,19 @@ std::optional<std::uint64_t> count_of(const std::string& text) {
 
 /// The words that say what the rows are: not where they go, or how.
 std::vector<std::string> that_matter(const std::vector<std::string>& words) {
-  constexpr std::array<std::string_view, 3> kWithValue{"--out", "--part", "--threads"};
-  constexpr std::array<std::string_view, 3> kFlags{"--quiet", "--json", "--no-figures"};
+  return words_without(words, {"--out", "--part", "--threads"}, {"--quiet", "--json", "--no-figures"});
+}
+
+}  // namespace
+
+std::vector<std::string> words_without(const std::vector<std::string>& words,
+                                       std::initializer_list<std::string_view> with_value,
+                                       std::initializer_list<std::string_view> flags) {
   std::vector<std::string> kept;
   for (std::size_t i = 0; i < words.size(); ++i) {
     const std::string name = words[i].substr(0, words[i].find('='));
-    if (std::find(kFlags.begin(), kFlags.end(), name) != kFlags.end()) continue;
-    if (std::find(kWithValue.begin(), kWithValue.end(), name) == kWithValue.end())
+    if (std::find(flags.begin(), flags.end(), name) != flags.end()) continue;
+    if (std::find(with_value.begin(), with_value.end(), name) == with_value.end())
       kept.push_back(words[i]);
     else if (name == words[i])
       ++i;
@@ -35,26 +41,27 @@ std::vector<std::string> that_matter(const std::vector<std::string>& words) {
   return kept;
 }
 
-}  // namespace
-
 std::string Part::text() const { return std::to_string(number) + "/" + std::to_string(of); }
 
-std::optional<Part> part_of(const OutputOptions& options) {
-  if (options.part.empty()) return std::nullopt;
-  const std::size_t slash = options.part.find('/');
-  const auto number = count_of(options.part.substr(0, slash)),
-             of = slash == std::string::npos ? std::nullopt : count_of(options.part.substr(slash + 1));
+std::optional<Part> part_of(const std::string& text) {
+  if (text.empty()) return std::nullopt;
+  const std::size_t slash = text.find('/');
+  const auto number = count_of(text.substr(0, slash)),
+             of = slash == std::string::npos ? std::nullopt : count_of(text.substr(slash + 1));
   if (!number || !of || *number < 1 || *number > *of)
-    throw InputError("--part", options.part, "K/N, the K-th of N parts, such as 3/8");
+    throw InputError("--part", text, "K/N, the K-th of N parts, such as 3/8");
   return Part{*number, *of};
 }
 
-work::ResumableTable rows_of_part(work::ResumableTable table, const Part& part) {
-  const std::uint64_t each = table.count / part.of, more = table.count % part.of;
+std::pair<std::uint64_t, std::uint64_t> share_of(std::uint64_t count, const Part& part) {
+  const std::uint64_t each = count / part.of, more = count % part.of;
   const auto begin = [&](std::uint64_t parts) { return parts * each + std::min(parts, more); };
+  return {begin(part.number - 1), begin(part.number)};
+}
+
+work::ResumableTable rows_of_part(work::ResumableTable table, const Part& part) {
   table.settings += ", part " + part.text() + " of " + std::to_string(table.count) + " rows";
-  table.first = begin(part.number - 1);
-  table.count = begin(part.number);
+  std::tie(table.first, table.count) = share_of(table.count, part);
   return table;
 }
 
@@ -74,7 +81,7 @@ void require_no_other_result(const OutputOptions& options, const work::StagedFol
 
 int publish_part(const OutputOptions& options, work::StagedFolder& folder,
                  const std::vector<work::ResumableTable>& tables, Json origin, std::ostream& out) {
-  const Part part = part_of(options).value();
+  const Part part = part_of(options.part).value();
   Json& kept = origin["part"] = {{"number", part.number},
                                  {"of", part.of},
                                  {"words", that_matter(options.words)},

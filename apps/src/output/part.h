@@ -4,9 +4,12 @@
 #pragma once
 
 #include <cstdint>
+#include <initializer_list>
 #include <iosfwd>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "json/json_value.h"
@@ -20,10 +23,19 @@ struct Part {
   [[nodiscard]] std::string text() const;  // "3/8"
 };
 
-/// Throws InputError naming --part.
-[[nodiscard]] std::optional<Part> part_of(const OutputOptions& options);
+/// Words of a command line but these options: those of `with_value` take the next word, or stand before a =.
+[[nodiscard]] std::vector<std::string> words_without(const std::vector<std::string>& words,
+                                                     std::initializer_list<std::string_view> with_value,
+                                                     std::initializer_list<std::string_view> flags);
 
-/// The rows of the part: as near to count/N as may be, with settings that say so.
+/// What --part says; nothing where it says nothing. Throws InputError naming it.
+[[nodiscard]] std::optional<Part> part_of(const std::string& text);
+
+/// Of `count` things in a row those of the part, from the first to before the second: as near to count/N as
+/// may be.
+[[nodiscard]] std::pair<std::uint64_t, std::uint64_t> share_of(std::uint64_t count, const Part& part);
+
+/// The rows of the part, with settings that say so.
 [[nodiscard]] work::ResumableTable rows_of_part(work::ResumableTable table, const Part& part);
 
 /// Throws InputError naming --out where the folder holds another finished result than this part.

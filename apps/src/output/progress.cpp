@@ -48,7 +48,11 @@ class Bar {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now(), shown_{};
 };
 
+std::function<bool(work::ResumableTable&)> shared;
+
 }  // namespace
+
+void share_rows(std::function<bool(work::ResumableTable&)> with) { shared = std::move(with); }
 
 Progress::Progress(bool quiet) : quiet_(quiet), terminal_(isatty(STDERR_FILENO) != 0) {}
 
@@ -81,10 +85,11 @@ void Progress::finish() {
 
 bool run_with_bar(work::ResumableTable table, work::StagedFolder& folder, const std::string& label,
                   const OutputOptions& options, std::ostream& out) {
-  if (const auto part = part_of(options)) {
+  if (const auto part = part_of(options.part)) {
     require_no_other_result(options, folder, *part);
     table = rows_of_part(std::move(table), *part);
   }
+  if (shared && !shared(table)) return true;
   Bar bar(label, table.count - table.first, options.quiet);
   std::uint64_t done = 0;
   table.progress = [&](std::uint64_t next) {

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "command/command_line.h"
 #include "output/output_options.h"
 
 namespace vericone::pursuit {
@@ -28,3 +29,9 @@ int run_pursue(const PursueOptions& options, std::ostream& out);
 int check_pursuit(const std::string& file, bool json, std::ostream& out);
 
 }  // namespace vericone::pursuit
+
+namespace vericone {
+
+int pursue_command(CommandLine& line);
+
+}  // namespace vericone

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "command/cases.h"
+#include "command/output_line.h"
 #include "commands.h"
 #include "cone/answer.h"
 #include "input/body.h"
@@ -96,10 +97,11 @@ Json answer_case(const Json& given, const Wanted& wanted, const Source& source) 
 
 /// `vericone query`: one engagement a line in, one answer a line out, in the same order
 /// (docs/reference/formats.md). Returns the exit status: 0, or 2 if any line was bad.
-int run_query(const std::string& path, const Wanted& wanted, int threads, std::ostream& out) {
+int run_query(const std::string& path, const Wanted& wanted, int threads, const std::optional<Part>& part,
+              std::ostream& out) {
   const Source source{path == "-" ? "" : std::filesystem::path(path).parent_path()};
   return answer_cases(
-      path, [&](const Json& value) { return answer_case(value, wanted, source); }, out, threads);
+      path, [&](const Json& value) { return answer_case(value, wanted, source); }, out, threads, part);
 }
 
 /// The same of one scene, YAML.
@@ -119,18 +121,21 @@ int query_command(CommandLine& line) {
   Wanted wanted;
   line.option("cases", cases, "File of cases, or - for standard input").required();
   int threads = 0;
+  std::string part;
   bool scene = false;
   line.flag("--scene", scene, "The file is one scene, YAML; a horizon may stand in it");
   line.flag("--rung", wanted.rung, "Add the rung of the ladder that decided: triage, interval or exact");
   line.flag("--certificate", wanted.certificate,
             "Add what proves the verdict, for programs that check it (docs/reference/certificates.md)");
   line.option("--threads", threads, "Threads, 0: one per processor; the answers are the same");
+  part_option(line, part, "lines alone; all answers, in order, are those of the file");
   bool json = true;
   line.flag("--json", json, "Print JSON; this command prints nothing else");
   line.quiet();
   line.read();
+  if (scene && !part.empty()) throw InputError("--part", part, "left out with --scene");
   if (scene) return run_query_of_scene(cases, wanted, std::cout);
-  return run_query(cases, wanted, threads_for(threads), std::cout);
+  return run_query(cases, wanted, threads_for(threads), part_of(part), std::cout);
 }
 
 }  // namespace vericone

@@ -331,7 +331,7 @@ int trials_command(CommandLine& line) {
   line.option("--trial", trials.trial, "This trial alone, printed");
   line.flag("--random", trials.random,
             "Another random engagement each trial, in place of the scenario's bodies");
-  part_option(line, trials);
+  part_option(line, trials.part);
   line.option("--out", trials.out, "Folder for tables and picture");
   line.option("--threads", trials.threads, "Threads, 0: one per processor");
   line.negative_flag("--no-figures", trials.figures, "Tables only");

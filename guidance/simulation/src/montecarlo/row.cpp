@@ -5,8 +5,9 @@
 #include <charconv>
 #include <cmath>
 #include <fstream>
-#include <sstream>
 #include <stdexcept>
+#include <string_view>
+#include <utility>
 
 namespace vericone::montecarlo {
 namespace {
@@ -20,27 +21,29 @@ std::string outcome_fields(const Outcome& o) {
 /// The fields of a line, one after the other.
 class Fields {
  public:
-  explicit Fields(const std::string& line) : in_(line) {}
+  explicit Fields(std::string_view line) : left_(line) {}
 
-  std::string text() {
-    std::string value;
-    if (!std::getline(in_, value, ',') && !in_.eof())
-      throw InputError("row", "too few fields", "one that csv_row() wrote for as many laws");
+  std::string_view text() {
+    if (ended_) throw InputError("row", "too few fields", "one that csv_row() wrote for as many laws");
+    const std::size_t end = left_.find(',');
+    const std::string_view value = left_.substr(0, end);
+    ended_ = end == std::string_view::npos;
+    left_.remove_prefix(ended_ ? left_.size() : end + 1);
     return value;
   }
   double number() {
-    const std::string value = text();
+    const std::string_view value = text();
     if (value.empty()) return std::numeric_limits<double>::quiet_NaN();
     double x = 0;
     const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), x);
     if (error != std::errc() || end != value.data() + value.size())
-      throw InputError("row", "'" + value + "'", "a number there");
+      throw InputError("row", "'" + std::string(value) + "'", "a number there");
     return x;
   }
   bool flag() { return number() != 0; }
   Outcome outcome() {
     Outcome o;
-    const std::string fate = text();
+    const std::string fate(text());
     if (!fate_of(fate)) throw InputError("row", "'" + fate + "'", "the name of a fate there");
     o.fate = *fate_of(fate);
     o.called_safe = flag();
@@ -49,7 +52,8 @@ class Fields {
   }
 
  private:
-  std::istringstream in_;
+  std::string_view left_;
+  bool ended_ = false;
 };
 
 }  // namespace
@@ -117,20 +121,26 @@ Row row_of(const std::string& line, std::size_t laws) {
   return row;
 }
 
-std::vector<Row> read_table(const std::filesystem::path& file, std::size_t laws) {
+void each_row(const std::filesystem::path& file, std::size_t laws, const std::function<void(Row)>& take) {
   std::ifstream in(file);
   if (!in) throw InputError("file", file.string(), "a table that can be read");
   std::string line;
   std::getline(in, line);  // settings
   std::getline(in, line);  // header
-  std::vector<Row> rows;
   for (std::size_t number = 3; std::getline(in, line); ++number) {
+    Row row;
     try {
-      rows.push_back(row_of(line, laws));
+      row = row_of(line, laws);
     } catch (const InputError& error) {
       throw InputError(file.string() + ":" + std::to_string(number), error.value(), error.requirement());
     }
+    take(std::move(row));
   }
+}
+
+std::vector<Row> read_table(const std::filesystem::path& file, std::size_t laws) {
+  std::vector<Row> rows;
+  each_row(file, laws, [&](Row row) { rows.push_back(std::move(row)); });
   return rows;
 }
 

@@ -1,46 +1,127 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <vericone/geometry/error.h>
+#include <vericone/internal/simulation/montecarlo/flight.h>
 #include <vericone/simulation/montecarlo/campaign.h>
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <limits>
+#include <numeric>
 #include <string>
+#include <vector>
 
 namespace vericone::montecarlo {
 namespace {
 
-double median(std::vector<double> values) {
-  if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
-  const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
+/// The value at the middle of values that are told as often as there are passes: sixteen of its bits come
+/// with each pass, and no value is kept.
+class Median {
+ public:
+  static constexpr int kPasses = 4;
 
-/// Counts over the outcomes that `of` takes from the rows.
-template <typename Of>
-Counts count(const std::vector<Row>& rows, Of of) {
-  Counts c;
-  std::vector<double> peaks, left;
-  c.least_distances.assign(std::size_t(kLastBin / kBin) + 1, 0);
-  for (const Row& row : rows) {
-    const Outcome& o = of(row);
-    c.avoided += o.fate == Fate::avoided;
-    c.undecided += o.fate == Fate::undecided;
-    c.infeasible += o.fate == Fate::met && !o.called_safe;
-    c.called_safe_and_met += o.fate == Fate::met && o.called_safe;
-    if (o.fate != Fate::avoided) continue;
-    ++c.least_distances[std::size_t(std::clamp(o.least_distance, 0.0, kLastBin) / kBin)];
-    if (o.peak > 0) peaks.push_back(o.peak);
-    if (!std::isnan(o.left_cone)) left.push_back(o.left_cone);
+  void take(double x) {
+    const std::uint64_t bits = ordered(x);
+    if (pass_ == 0 || bits >> (shift() + kBits) == known_) ++counts_[(bits >> shift()) & kLast];
   }
-  c.median_peak = median(peaks);
-  c.median_left_cone = median(left);
-  return c;
-}
+  void end_pass() {
+    if (pass_ == 0) {
+      count_ = std::accumulate(counts_.begin(), counts_.end(), std::uint64_t{0});
+      before_ = count_ / 2;
+    }
+    if (count_ == 0) return;
+    std::uint64_t digit = 0;
+    while (before_ >= counts_[digit]) before_ -= counts_[digit++];
+    known_ = known_ << kBits | digit;
+    ++pass_;
+    std::fill(counts_.begin(), counts_.end(), 0);
+  }
+  /// NaN of none.
+  [[nodiscard]] double value() const {
+    if (count_ == 0) return std::numeric_limits<double>::quiet_NaN();
+    return std::bit_cast<double>(known_ & kSign ? known_ ^ kSign : ~known_);
+  }
+
+ private:
+  static constexpr int kBits = 16;
+  static constexpr std::uint64_t kLast = 0xffff, kSign = std::uint64_t{1} << 63;
+
+  /// Bits that stand in the order of the numbers.
+  static std::uint64_t ordered(double x) {
+    const auto bits = std::bit_cast<std::uint64_t>(x);
+    return bits & kSign ? ~bits : bits | kSign;
+  }
+  [[nodiscard]] int shift() const { return 64 - kBits * (pass_ + 1); }
+
+  int pass_ = 0;
+  std::uint64_t count_ = 0, before_ = 0,
+                known_ = 0;  // before_: of those with the known bits, how many are smaller
+  std::vector<std::uint64_t> counts_ = std::vector<std::uint64_t>(kLast + 1);
+};
+
+/// What is counted of the outcomes of one law, or of straight flight.
+struct Tally {
+  Counts counts;
+  Median peak, left_cone;
+
+  void take(const Outcome& o, bool first_pass) {
+    const bool avoided = o.fate == Fate::avoided;
+    if (first_pass) {
+      counts.avoided += avoided;
+      counts.undecided += o.fate == Fate::undecided;
+      counts.infeasible += o.fate == Fate::met && !o.called_safe;
+      counts.called_safe_and_met += o.fate == Fate::met && o.called_safe;
+      if (avoided) ++counts.least_distances[std::size_t(std::clamp(o.least_distance, 0.0, kLastBin) / kBin)];
+    }
+    if (avoided && o.peak > 0) peak.take(o.peak);
+    if (avoided && !std::isnan(o.left_cone)) left_cone.take(o.left_cone);
+  }
+  void end_pass() {
+    peak.end_pass();
+    left_cone.end_pass();
+    counts.median_peak = peak.value();
+    counts.median_left_cone = left_cone.value();
+  }
+};
 
 /// Laws whose word is a theorem about the straight flight that follows it: they ask the true cone, or m.
 bool word_is_proof(const Flown& law) {
   return law.guide.law == guidance::Law::clearance || law.guide.sector == guidance::SectorMethod::true_cone;
+}
+
+void take_straight(const Row& row, Summary& s) {
+  const StraightOutcome& straight = row.straight;
+  const bool met = straight.outcome.fate == Fate::met;
+  s.slice_called_safe_and_met += met && straight.slice_called_safe;
+  s.exact_called_safe_and_met += met && straight.exact_called_safe;
+  s.predicate_called_safe_and_met += met && straight.outcome.called_safe;
+  s.exact_called_unsafe_and_avoided += straight.outcome.fate == Fate::avoided && !straight.exact_called_safe;
+}
+
+/// Of rows that `each` gives to what it is called with.
+template <typename Each>
+Summary summary_of(const Each& each, const std::vector<Flown>& laws) {
+  Summary s;
+  for (const Flown& law : laws)
+    s.laws.push_back({law.name, law.guide.inversion.most, word_is_proof(law), {}, 0});
+  std::vector<Tally> tallies(1 + laws.size());
+  for (Tally& tally : tallies) tally.counts.least_distances.resize(std::size_t(kLastBin / kBin) + 1);
+  for (int pass = 0; pass < Median::kPasses; ++pass) {
+    each([&](const Row& row) {
+      tallies[0].take(row.straight.outcome, pass == 0);
+      for (std::size_t i = 0; i < laws.size(); ++i) tallies[1 + i].take(row.outcomes[i], pass == 0);
+      if (pass > 0) return;
+      ++s.engagements;
+      take_straight(row, s);
+      for (std::size_t i = 0; i < laws.size(); ++i)
+        s.laws[i].made_worse +=
+            row.straight.outcome.fate == Fate::avoided && row.outcomes[i].fate == Fate::met;
+    });
+    for (Tally& tally : tallies) tally.end_pass();
+  }
+  s.straight = tallies[0].counts;
+  for (std::size_t i = 0; i < laws.size(); ++i) s.laws[i].counts = tallies[1 + i].counts;
+  return s;
 }
 
 }  // namespace
@@ -51,29 +132,11 @@ Summary summarise(const std::vector<Row>& rows, const std::vector<Flown>& laws) 
       throw InputError("rows[" + std::to_string(i) + "].outcomes",
                        std::to_string(rows[i].outcomes.size()) + " outcomes",
                        "one for each law, " + std::to_string(laws.size()));
-  const auto number = [&](auto which) {
-    return std::uint64_t(std::count_if(rows.begin(), rows.end(), which));
-  };
-  const auto met = [](const Row& r) { return r.straight.outcome.fate == Fate::met; };
-  Summary s;
-  s.engagements = rows.size();
-  s.straight = count(rows, [](const Row& r) -> const Outcome& { return r.straight.outcome; });
-  s.slice_called_safe_and_met = number([&](const Row& r) { return met(r) && r.straight.slice_called_safe; });
-  s.exact_called_safe_and_met = number([&](const Row& r) { return met(r) && r.straight.exact_called_safe; });
-  s.predicate_called_safe_and_met =
-      number([&](const Row& r) { return met(r) && r.straight.outcome.called_safe; });
-  s.exact_called_unsafe_and_avoided = number([&](const Row& r) {
-    return r.straight.outcome.fate == Fate::avoided && !r.straight.exact_called_safe;
-  });
-  for (std::size_t i = 0; i < laws.size(); ++i) {
-    Summary::OfLaw law{laws[i].name, laws[i].guide.inversion.most, word_is_proof(laws[i]), {}};
-    law.counts = count(rows, [i](const Row& r) -> const Outcome& { return r.outcomes[i]; });
-    law.made_worse = number([&](const Row& r) {
-      return r.straight.outcome.fate == Fate::avoided && r.outcomes[i].fate == Fate::met;
-    });
-    s.laws.push_back(std::move(law));
-  }
-  return s;
+  return summary_of([&](const auto& take) { std::for_each(rows.begin(), rows.end(), take); }, laws);
+}
+
+Summary summarise_file(const std::filesystem::path& file, const std::vector<Flown>& laws) {
+  return summary_of([&](const auto& take) { each_row(file, laws.size(), take); }, laws);
 }
 
 std::uint64_t violations(const Summary& s) {

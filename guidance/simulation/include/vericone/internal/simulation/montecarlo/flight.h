@@ -5,6 +5,8 @@
 
 #include <vericone/simulation/montecarlo/campaign.h>
 #include <cstdint>
+#include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -35,6 +37,13 @@ inline constexpr double kUnlimited = 1000;  // m/s^2
 /// The laws by name, each with saturation and without. Throws InputError naming "laws".
 [[nodiscard]] std::vector<Flown> flown_laws(const std::vector<std::string>& names,
                                             const FlightSettings& settings);
+
+/// The rows of a table one after the other. Throws as read_table() does.
+void each_row(const std::filesystem::path& file, std::size_t laws, const std::function<void(Row)>& take);
+
+/// summarise() of the table in a file, which is read four times: memory does not grow with it. Throws as
+/// read_table() does.
+[[nodiscard]] Summary summarise_file(const std::filesystem::path& file, const std::vector<Flown>& laws);
 
 /// Nothing for another text.
 [[nodiscard]] std::optional<Fate> fate_of(const std::string& text);
