@@ -11,6 +11,7 @@
 #include <map>
 #include <mutex>
 #include <sstream>
+#include <stdexcept>
 #include <thread>
 #include <vector>
 
@@ -64,10 +65,29 @@ std::uint64_t complete_rows(const std::filesystem::path& partial, const Resumabl
   return rows;
 }
 
+/// compute_rows() where others compute them.
+bool gather_rows(const ResumableTable& table, std::uint64_t first,
+                 const std::function<void(std::string_view)>& write) {
+  for (std::uint64_t begin = first, end = first; begin < table.count; begin = end) {
+    end = begin + std::min(table.block, table.count - begin);
+    const std::string rows = table.rows(begin, end);
+    checkpoint();
+    if (interrupted()) return false;
+    const auto lines = std::count(rows.begin(), rows.end(), '\n');
+    if (static_cast<std::uint64_t>(lines) != end - begin)
+      throw std::runtime_error("got " + std::to_string(lines) + " rows for those from " +
+                               std::to_string(begin) + " to " + std::to_string(end));
+    write(rows);
+    if (table.progress && !table.progress(end)) return end == table.count;
+  }
+  return true;
+}
+
 }  // namespace
 
 bool compute_rows(const ResumableTable& table, std::uint64_t first,
                   const std::function<void(std::string_view)>& write) {
+  if (table.rows) return gather_rows(table, first, write);
   std::mutex mutex;
   std::condition_variable ready;
   std::map<std::uint64_t, std::string> blocks;

@@ -18,6 +18,9 @@ struct ResumableTable {
   std::string header{};
   std::uint64_t first = 0, count = 0;               // rows from `first` to `count`, which is none of them
   std::function<std::string(std::uint64_t)> row{};  // called from several threads
+  /// Where it is set, what gives the rows from `begin` to before `end`, each with a line break: other
+  /// processes compute them. Called from this thread alone, for one block after the other.
+  std::function<std::string(std::uint64_t begin, std::uint64_t end)> rows{};
   /// The first cell of a row: a row that stands anywhere else is refused.
   std::function<std::string(std::uint64_t)> id = [](std::uint64_t i) { return std::to_string(i); };
   int threads = 1;
