@@ -106,13 +106,15 @@ Start crossing(std::size_t count, Random& random) {
 }
 
 Start gap(std::size_t count, Random& random) {
-  constexpr double kSpacing = 6, kHalf = 12, kOuter = 100, kInside = kHalf - kRadius - 0.5;
+  constexpr double kSpacing = 6, kHalf = 12, kOuter = 100, kInside = kHalf - kRadius - 1.5;
   const double half = 0.5 * width_of_block(count, kSpacing) - 0.5 * kSpacing, far = half + 20,
                strip = 0.5 * (kOuter - kHalf);
   Start start;
   for (const Vector3d& x : block(count, Vector3d(-far, 0, 0), kSpacing)) {
-    const Vector3d way = Vector3d(0, x.y(), x.z()) * std::min(1.0, kInside / half);
-    start.agents.push_back(agent_at(scattered(x, random), {way, x + Vector3d(2 * far, 0, 0)}));
+    // To a place in the hole, then through it: who is pushed aside before the wall has passed neither.
+    const Vector3d hole = std::min(1.0, kInside / half) * Vector3d(0, x.y(), x.z()), half_through(1, 0, 0);
+    start.agents.push_back(agent_at(scattered(x, random),
+                                    {hole - half_through, hole + half_through, x + Vector3d(2 * far, 0, 0)}));
   }
   for (const double side : {-1.0, 1.0}) {
     Solid beside, above;

@@ -417,7 +417,8 @@ void Swarm::State::watch(std::size_t i) {
   const double now = to_go(i), flown_by = left[i] - now;
   left[i] = now;
   const double t = static_cast<double>(steps) * options.step;
-  if (t < aside_until[i] || flown_by >= kProgress * agent.wished * kLook) return;
+  // After a turn aside it first goes straight again for as long as it takes to see whether that helps.
+  if (t < aside_until[i] + kLook || flown_by >= kProgress * agent.wished * kLook) return;
   ++counts.deadlocks;
   ++stuck[i];
   if (!orca()) aside_until[i] = t + kLong;
