@@ -260,6 +260,46 @@ void crowd_decisions() {
       decision_row((std::string("4 ellipsoids, first decision: ") + to_string(status)).c_str(), times);
 }
 
+/// Flights of 60 m among 100 ellipsoids within 80 m, half of them moving.
+void decisions_among_a_hundred(bool longitudinal) {
+  Dice dice(5);
+  const Ellipsoid shape = Ellipsoid::from_axes({0, 0, 0}, {0.4, 0.3, 0.2});
+  const Vector3d goal(60, 0, 0);
+  std::vector<double> times;
+  for (int flight = 0; flight < 40; ++flight) {
+    std::vector<BodyState> others;
+    while (others.size() < 100) {
+      const Vector3d axes(dice.uniform(0.3, 2), dice.uniform(0.3, 2), dice.uniform(0.3, 2));
+      const Vector3d at = 80 * std::cbrt(dice.uniform(0, 1)) * dice.direction();
+      if (at.norm() < 4 || (at - goal).norm() < 4) continue;
+      const Vector3d velocity = others.size() % 2 ? Vector3d(3 * dice.direction()) : Vector3d(0, 0, 0);
+      others.push_back(still_or_moving(CombinedEllipsoid(Ellipsoid::from_axes(at, axes)), at, velocity));
+    }
+    Navigator navigator({.required = 0.3, .beyond = 0.1, .most = 8, .longitudinal = longitudinal});
+    Vector3d p(0, 0, 0), v(5, 0, 0);
+    constexpr double kStep = 0.05;
+    for (double t = 0; (goal - p).norm() > 2 && t < 20; t += kStep) {
+      const BodyState agent = still_or_moving(CombinedEllipsoid(shape.translated(p)), p, v);
+      NavigatorStep said;
+      times.push_back(milliseconds_of([&] {
+        said = navigator.step(agent, others, Destination{goal, 8}, t, kStep);
+      }));
+      Vector3d next = v + kStep * said.acceleration;
+      if (!longitudinal) next *= v.norm() / next.norm();
+      p += 0.5 * kStep * (v + next);
+      v = next;
+      for (BodyState& other : others) {
+        other.position += kStep * other.velocity;
+        other.shape =
+            CombinedEllipsoid(other.shape.quadric()->ellipsoid().translated(kStep * other.velocity));
+      }
+    }
+  }
+  decision_row(
+      longitudinal ? "among 100 ellipsoids, its speed may change" : "among 100 ellipsoids, at constant speed",
+      times);
+}
+
 /// Flights along a corridor 2.5 m wide and high and 35 m long, of 140,000 boxes, past posts that leave 0.9 m.
 void corridor_decisions() {
   std::vector<Box> boxes;
@@ -306,6 +346,7 @@ void decisions_table() {
   std::printf(
       "\nDecisions of a Navigator, processor time.\n\n"
       "| decision | number | median | 99 %% | worst |\n| --- | --- | --- | --- | --- |\n");
+  for (const bool longitudinal : {false, true}) decisions_among_a_hundred(longitudinal);
   crowd_decisions();
   corridor_decisions();
 }

@@ -185,6 +185,21 @@ TEST(Navigator, AllocatesNothingOnceItHasSearched) {
   }
 }
 
+TEST(Navigator, AllocatesNothingAmongAHundred) {
+  RandomBodies random(79);
+  for (const bool longitudinal : {false, true}) {
+    Scene s = scene(random, 100);
+    Navigator navigator({.required = 0.2, .beyond = 0.1, .most = 8, .longitudinal = longitudinal});
+    const Destination destination{40 * random.direction(), 8};
+    std::size_t before = 0;
+    for (int k = 0; k < 40; ++k) {
+      if (k == 1) before = testing::allocations();
+      navigator.step(s.agent, s.others, destination, 0.05 * k, 0.05);
+    }
+    EXPECT_EQ(testing::allocations(), before) << longitudinal;
+  }
+}
+
 TEST(Navigator, AllocatesNothingInAMapEither) {
   Navigator navigator({.required = 5, .beyond = 0.1, .most = 8});  // nothing is safe: it searches
   const BodyState agent = body(Ellipsoid::from_axes({0, 0, 0}, {0.3, 0.3, 0.1}), {3, 0, 0});
