@@ -154,6 +154,10 @@ TEST(NoAllocation, ConvexBodies) {
     const Vector3d w = Vector3d(6, 0, 0) + random.in_box(4);
     expect_none_of_lower_rungs(oracle, w);
     EXPECT_EQ(allocations_of([&] { touched += oracle.first_contact(w).has_value(); }), 0);
+    EXPECT_EQ(allocations_of([&] {
+                static_cast<void>(oracle.triage_within(w, Vector3d::Zero(), {0, 1}));
+              }),
+              0);
     EXPECT_EQ(allocations_of([&] { static_cast<void>(oracle.gap(w)); }), 0);
   }
   EXPECT_GT(touched, kCases / 6);

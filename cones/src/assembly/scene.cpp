@@ -6,6 +6,7 @@
 #include <vericone/internal/geometry/rotation.h>
 
 #include "ellipsoids/apart.h"
+#include "round/contact.h"
 #include "round/seam.h"
 
 namespace vericone::assembly {
@@ -195,6 +196,10 @@ std::optional<Relation> Scene::exact_relation(std::uint32_t slot,
 
 std::optional<Membership> Scene::exact_within(std::uint32_t slot, const Stretch& stretch,
                                               std::vector<exact::Generators>& covered) const {
+  // Doubles first: near a contact they tell more than a search by points.
+  const RoundScene pair(convex_agent(*this), place_.agent, body_.convex_piece(piece(slot)), place_.obstacle);
+  if (const auto inside = round_within(pair, stretch.v_a - stretch.v_b, stretch.from, stretch.until))
+    return *inside ? Membership::in : Membership::out;
   return with_oracle(*this, slot, [&](const auto& oracle) -> std::optional<Membership> {
     exact::Generators cone;
     const std::optional<Membership> answer =

@@ -181,15 +181,12 @@ class Convexes : public AssemblyFamily {
   Verdict verdict(const Vector3d& v_a, const Vector3d& v_b) const override {
     return convexes_.verdict(v_a, v_b);
   }
-  /// What never meets is told by the predicate; when the others do, by the assembly.
+  /// What the predicate does not tell in doubles is told by the assembly.
   Verdict verdict(const Vector3d& v_a, const Vector3d& v_b, const Horizon& horizon) const override {
     const bool ahead = horizon.from == 0 && convexes_.relation() == Relation::disjoint;
     if (ahead && convexes_.surely_out(v_a, v_b, horizon)) return Verdict::out;
-    if (const auto found = ahead ? first_contact(v_a, v_b) : std::nullopt) {
-      const double room = 0x1p-40 * found->latest;  // the difference of velocities was rounded
-      if (found->latest + room < horizon.until) return Verdict::in;
-      if (found->earliest - room > horizon.until) return Verdict::out;
-    }
+    if (ahead || horizon.from > 0)
+      if (const auto found = convexes_.triage_within(v_a, v_b, horizon)) return to_verdict(*found);
     return AssemblyFamily::verdict(v_a, v_b, horizon);
   }
   Contact contact(const Vector3d& v_a, const Vector3d& v_b) const override {
@@ -209,11 +206,11 @@ class Convexes : public AssemblyFamily {
   }
   double gap(const Vector3d& n) const override { return convexes_.gap(n); }
   std::optional<NearestPlane> nearest_plane(const Vector3d& start, const Vector3d& end) const override {
+    const auto meeting = convexes_.meeting(start, end);
+    if (meeting && meeting->inside) return std::nullopt;
+    if (meeting && meeting->touching) return NearestPlane{meeting->normal, meeting->part};
     if (const auto found = oracle_->nearest_plane(start, end)) return plane_.tightened(*found, start, end);
-    if (start.isZero(0) && relation() == Relation::disjoint)
-      if (const auto contact = convexes_.first_contact(end); contact && contact->latest < 1)
-        return std::nullopt;
-    return plane_.found(start, end);
+    return plane_.found(start, end, meeting ? std::optional(meeting->normal) : std::nullopt);
   }
   std::optional<Rung> rung(const Vector3d& v_a, const Vector3d& v_b) const override {
     Rung rung = convexes_.relation_rung();

@@ -230,10 +230,13 @@ std::optional<NearestPlane> TightPlane::tightened(NearestPlane plane, const Vect
   return NearestPlane{n, plane.at};
 }
 
-std::optional<NearestPlane> TightPlane::found(const Vector3d& start, const Vector3d& end) const {
+std::optional<NearestPlane> TightPlane::found(const Vector3d& start, const Vector3d& end,
+                                              const std::optional<Vector3d>& known) const {
   const Vector3d along = end - start;
   const double square = along.squaredNorm();
   const double at = square > 0 ? std::clamp((between_ - start).dot(along) / square, 0.0, 1.0) : 0;
+  if (known)
+    if (const auto plane = tightened({*known, at}, start, end)) return plane;
   if (const auto plane = tightened({between_ - start - at * along, at}, start, end)) return plane;
   if (!(square > 0)) return std::nullopt;
   // The best of those that both ends of the way are as far from: sampled, then between its neighbours.

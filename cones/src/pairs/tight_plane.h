@@ -24,10 +24,10 @@ class TightPlane {
   /// Nothing where no plane is found that parts them.
   [[nodiscard]] std::optional<NearestPlane> tightened(NearestPlane plane, const Eigen::Vector3d& start,
                                                       const Eigen::Vector3d& end) const;
-  /// The same from several normals, one after the other, for bodies that are nearly touching on the way:
-  /// there a search by points tells nothing.
-  [[nodiscard]] std::optional<NearestPlane> found(const Eigen::Vector3d& start,
-                                                  const Eigen::Vector3d& end) const;
+  /// The same from several normals, one after the other, first a `known` one, for bodies that are nearly
+  /// touching on the way: there a search by points tells nothing.
+  [[nodiscard]] std::optional<NearestPlane> found(const Eigen::Vector3d& start, const Eigen::Vector3d& end,
+                                                  const std::optional<Eigen::Vector3d>& known) const;
 
  private:
   struct Option;

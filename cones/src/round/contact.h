@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// First contact of two convex bodies whose cone a velocity is surely in: the least t with t w in K.
+// First contact of two convex bodies whose cone a velocity is surely in: the least t with t w in K. And by
+// the same search whether there is a contact in a stretch of time at all.
 #pragma once
 
 #include <Eigen/Core>
@@ -21,5 +22,25 @@ struct RoundContact {
 /// above, the plane through them, moved to K, from below, and its point of K is the next. Nothing where the
 /// two do not come together within rounding soon. `w`: of ordinary size, the line of it meets K ahead.
 std::optional<RoundContact> round_contact(const RoundScene& scene, const Eigen::Vector3d& w) noexcept;
+
+/// Where the origin lies to all that K is while the agent goes straight from one displacement to another.
+struct RoundMeeting {
+  std::optional<bool> inside = {};  // in its interior, or outside of it; nothing where that is not certain
+  // Where outside:
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();  // n.x > 0 on all of it
+  double part = 0;                                   // of the way, about where the plane comes to touch it
+  bool touching = false;                             // it nearly does
+};
+
+/// By the search of first contacts, along the line from the origin to a point amid it. Displacements: metres,
+/// off by two roundings at most. `plane`: goes on until one that parts them touches it, nearly, if that is
+/// near.
+RoundMeeting round_meeting(const RoundScene& scene, const Eigen::Vector3d& first, const Eigen::Vector3d& last,
+                           bool plane) noexcept;
+
+/// Whether some t w is in the interior of K, from <= t <= until, or none is in K; nothing where that is not
+/// certain. `w`: off by one rounding.
+std::optional<bool> round_within(const RoundScene& scene, const Eigen::Vector3d& w, double from,
+                                 double until) noexcept;
 
 }  // namespace vericone

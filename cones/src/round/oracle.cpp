@@ -165,7 +165,7 @@ std::optional<Membership> RoundOracle::triage_membership(const Vector3d& w) cons
   const Vector3d v = largest > 1e-100 && largest < 1e100 ? w : to_scale_one(w, exponent);
   const double along = normal_.dot(v), bound = 8 * kUnitRoundoff * v.cwiseAbs().sum();
   const int side = static_cast<int>(along > bound) - static_cast<int>(along < -bound);
-  return decide(*scene_, v, side, TriageShadow{*scene_, v});
+  return decide(*scene_, v, side, TriageShadow<RoundScene>{*scene_, v});
 }
 
 std::optional<Membership> RoundOracle::interval_membership(const Vector3d& v_a,
@@ -243,7 +243,22 @@ bool RoundOracle::surely_out(const Vector3d& v_a, const Vector3d& v_b,
   // Of the normal the largest entry is 1.
   const double slack = 32 * kUnitRoundoff * w.cwiseAbs().sum();
   if (normal_certified_ && slack > 1e-280 && (normal_.dot(w) + slack) * horizon.until < room_) return true;
-  return triage_membership(w) == Membership::out || interval_membership(v_a, v_b) == Membership::out;
+  const auto membership = triage_membership(w);
+  return (membership ? membership : interval_membership(v_a, v_b)) == Membership::out;
+}
+
+std::optional<RoundOracle::Meeting> RoundOracle::meeting(const Vector3d& first,
+                                                         const Vector3d& last) const noexcept {
+  const RoundMeeting found = round_meeting(*scene_, first, last, true);
+  if (!found.inside) return std::nullopt;
+  return Meeting{*found.inside, found.normal, found.part, found.touching};
+}
+
+std::optional<Membership> RoundOracle::triage_within(const Vector3d& v_a, const Vector3d& v_b,
+                                                     const Horizon& horizon) const noexcept {
+  const auto inside = round_within(*scene_, v_a - v_b, horizon.from, horizon.until);
+  if (!inside) return std::nullopt;
+  return *inside ? Membership::in : Membership::out;
 }
 
 std::optional<Membership> RoundOracle::exact_within(const Vector3d& v_a, const Vector3d& v_b,

@@ -60,6 +60,12 @@ void scale_by(int exponent, RoundBody& body) {
   body.off *= scale;
 }
 
+double largest_factor(const RoundBody& body) {
+  double most = 0;
+  for (const RoundBody::Group& group : body.groups) most = std::max(most, group.factor.norm());
+  return most;
+}
+
 Vector3d mean_center(const RoundBody& body) {
   Vector3d sum = Vector3d::Zero();
   for (const Vector3d& x : body.center) sum += x;
@@ -121,8 +127,12 @@ RoundScene::RoundScene(Convex agent_body, const Vector3d& a_at, Convex obstacle_
   middle_obstacle = mean_center(obstacle);
   middle = middle_obstacle - mean_center(agent);
   size = (agent.reach + obstacle.reach + 2 * margin) * (1 + 0x1p-40);
-  const double terms = 64 + static_cast<double>(agent.center.size() + obstacle.center.size());
-  slack = (terms * kUnitRoundoff * size + 2 * (agent.off + obstacle.off)) * (1 + 0x1p-40) + 1e-250;
+  // Centres are rounded once, three products and five sums of them in a value; the sums of the middle have as
+  // many terms as there are. All else is of the size of the pieces themselves.
+  const double terms = 16 + static_cast<double>(agent.center.size() + obstacle.center.size());
+  const double of_pieces = 64 * (largest_factor(agent) + largest_factor(obstacle) + margin);
+  slack =
+      ((terms * size + of_pieces) * kUnitRoundoff + 2 * (agent.off + obstacle.off)) * (1 + 0x1p-40) + 1e-250;
 }
 
 double RoundScene::enclosed_least(const std::array<Interval, 3>& n) const noexcept {

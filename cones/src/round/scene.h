@@ -6,6 +6,7 @@
 
 #include <vericone/geometry/convex.h>
 #include <vericone/geometry/interval.h>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -119,6 +120,31 @@ struct RoundScene {
   /// A point of K that has about the least n.x.
   [[nodiscard]] std::array<Interval, 3> enclosed_point(const Eigen::Vector3d& n) const noexcept;
   [[nodiscard]] std::array<Interval, 3> enclosed_middle() const noexcept;
+};
+
+/// K and where it is while the agent goes from one displacement to another: { x - d }, x in K, d between the
+/// two, which are rounded from w t by at most two roundings. Read as a RoundScene.
+struct SweptScene {
+  SweptScene(const RoundScene& scene, const Eigen::Vector3d& from, const Eigen::Vector3d& until) noexcept
+      : still(scene), first(from), last(until) {
+    const double way = std::max(first.cwiseAbs().sum(), last.cwiseAbs().sum());
+    size = (still.size + way) * (1 + 0x1p-40);
+    slack = still.slack + 8 * kUnitRoundoff * size;
+  }
+
+  const RoundScene& still;
+  Eigen::Vector3d first, last;
+  double size = 0, slack = 0;                        // as of RoundScene
+  Eigen::Vector3d middle = Eigen::Vector3d::Zero();  // a point of it, off by at most `slack`
+
+  [[nodiscard]] RoundSupport least(const Eigen::Vector3d& n) const noexcept {
+    RoundSupport support = still.least(n);
+    support.value -= std::max(n.dot(first), n.dot(last));
+    return support;
+  }
+  [[nodiscard]] Eigen::Vector3d point(const Eigen::Vector3d& n, const RoundSupport& support) const noexcept {
+    return still.point(n, support) - (n.dot(first) > n.dot(last) ? first : last);
+  }
 };
 
 }  // namespace vericone

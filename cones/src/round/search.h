@@ -35,11 +35,12 @@ struct ShadowPoint {
 };
 
 /// What a rung has to prove: outside(n, largest |n_k|, support): n.w <= 0 and n.x > 0 on all of K;
-/// around(corners): the polygon of 3 or 4 corners winds once around the origin.
-template <class Rung>
+/// around(corners): the polygon of 3 or 4 corners winds once around the origin. `Scene`: RoundScene, or
+/// SweptScene.
+template <class Rung, class Scene>
 class ShadowSearch {
  public:
-  ShadowSearch(const RoundScene& scene, const Eigen::Vector3d& w, const Rung& rung) noexcept
+  ShadowSearch(const Scene& scene, const Eigen::Vector3d& w, const Rung& rung) noexcept
       : scene_(scene),
         rung_(rung),
         w_(w),
@@ -141,7 +142,7 @@ class ShadowSearch {
 
   static constexpr int kMostSteps = 40;
 
-  const RoundScene& scene_;
+  const Scene& scene_;
   const Rung& rung_;
   Eigen::Vector3d w_;
   ShadowAxes axes_;

@@ -10,8 +10,9 @@
 namespace vericone {
 
 /// The first rung: w is within one rounding of each entry.
+template <class Scene>
 struct TriageShadow {
-  const RoundScene& scene;
+  const Scene& scene;
   const Eigen::Vector3d& w;
   double length = w.norm(), least_turn = 32 * scene.size * scene.slack;
 

@@ -62,6 +62,21 @@ class RoundOracle {
   /// Whether disjoint bodies do not meet within a horizon: true is certain, false says nothing.
   [[nodiscard]] bool surely_out(const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b,
                                 const Horizon& horizon) const noexcept;
+  /// First rung within a horizon, for v_a != v_b, however they lie now. Never answers `on`. No allocation, no
+  /// throw.
+  [[nodiscard]] std::optional<Membership> triage_within(const Eigen::Vector3d& v_a,
+                                                        const Eigen::Vector3d& v_b,
+                                                        const Horizon& horizon) const noexcept;
+  /// While the agent goes straight from one displacement to another, metres, each off by two roundings at
+  /// most: whether they surely overlap on the way, or surely do not meet. Nothing where doubles do not say.
+  struct Meeting {
+    bool inside;
+    Eigen::Vector3d normal;  // of a plane that parts them all the way, from the agent towards the obstacle
+    double part;             // of the way, about where it comes to touch both
+    bool touching;           // it nearly does
+  };
+  [[nodiscard]] std::optional<Meeting> meeting(const Eigen::Vector3d& first,
+                                               const Eigen::Vector3d& last) const noexcept;
   /// Within a horizon, for v_a != v_b, however they lie now, by the last rung; nothing where it is undecided.
   [[nodiscard]] std::optional<Membership> exact_within(const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b,
                                                        const Horizon& horizon) const;
