@@ -253,6 +253,16 @@ def convex(read):
 def mesh(read):
     return hulls(read.points, [[index(i, len(read.points), "a triangle's point") for i in three]
                                for three in read.triangles])
+def wall(read):
+    """A flat ring about a hole that is star-shaped about the origin, in quadrangles."""
+    rim = [V((*v, ZERO)) for v in read.outline]
+    edges, count = list(zip(rim, rim[1:] + rim[:1])), len(rim)
+    upper = [y > 0 or y == 0 < x for x, y, _ in rim]
+    rounds = sum(not a and b for a, b in zip(upper, upper[1:] + upper))
+    form(rounds == 1 and all(cross_product(a, b)[2] > 0 for a, b in edges) and read.extent > 1,
+         "an outline goes round the origin once, counterclockwise, extent > 1")
+    return hulls(rim + [v * read.extent for v in rim],
+                 [(k, (k + 1) % count, count + (k + 1) % count, count + k) for k in range(count)])
 def union(parts):
     found = body_of([row * Fraction(1, part.scale) for part in parts for row in part.rows], [])
     for part in parts:
@@ -286,7 +296,7 @@ KINDS = {  # fields needed, fields allowed, and the body of what was read
     "box": ("low high", "", lambda read: boxes([(read.low, read.high)])), "mesh": ("points triangles", "", mesh),
     "cloud": ("points radius", "", lambda read: balls(read.points, read.radius)),
     "boxes": ("boxes", "", lambda read: boxes(read.boxes)), "octree": ("low cell depth tree", "", octree),
-    "union": ("pieces", "", None), "file": ("name sha256", "", None)}
+    "wall": ("outline extent", "", wall), "union": ("pieces", "", None), "file": ("name sha256", "", None)}
 PARTS = ("ellipsoid", "ball", "hull", "box", "convex", "delimited", "quadrics")  # of a union
 
 class Reader:
@@ -374,6 +384,14 @@ class Side:
             holds(not squares or rest.not_negative(), f"{self.who}: r^2 - n.S n is not negative{when}")
             holds(len(squares) < 2 or (rest * rest - squares[0] * squares[1] * 4).not_negative(),
                   f"{self.who}: r is not below both roots{when}")
+    def within(self, most):
+        """No point of these pieces is farther than that from the origin."""
+        for skin, points in self.points.items():
+            for ends in points if skin.box else ((i, i) for i in points):
+                far = V(max(abs(a), abs(b)) for a, b in zip(*(self.body.rows[i] for i in ends)))
+                rest = most - skin.margin - root_above(Fraction(far @ far, self.body.scale ** 2))
+                wide = skin.shape and [e * rest ** 2 - row for e, row in zip(unit(len(far)), skin.shape)]
+                holds(rest >= 0 and (not wide or definite(wide)), f"{self.who}: within {say(most)} of its origin")
     def named(self, read):
         """The number of the piece that a proof names."""
         k = getattr(read, f"{self.who}_piece", None)
@@ -381,10 +399,10 @@ class Side:
         k = index(0 if k is None else k, len(self.body.pieces), f"{self.who}_piece")
         holds(k in self.group, f"{self.who}_piece is of its group")
         return k
-    def contains(self, x, k, weights=None):
-        """x is a point of piece k, by its inequalities or as a mean; told are ways: some vectors that span what it can
-        be moved along, a little, there and back, without leaving it."""
-        size, margin = len(x), self.body.pieces[k][0].margin
+    def contains(self, x, k, weights=None, depth=ZERO):
+        """x is a point of piece k, by its inequalities or as a mean (then with the ball of radius `depth` about it);
+        told are ways: some vectors that span what it can be moved along, a little, there and back, within it."""
+        size, margin = len(x), self.body.pieces[k][0].margin - depth
         if weights is None:
             y = V((*(x - self.body.points(k)[0]), ONE))
             values = [y @ through(rows, y) for rows in self.body.forms(k)]
@@ -392,7 +410,7 @@ class Side:
             return unit(size) if all(value < 0 for value in values) else []
         mean, ways = self.mean(k, weights)
         rest = (x - mean) @ (x - mean)
-        holds(rest <= margin ** 2, f"{self.who}: the point is the mean of the corners")
+        holds(margin >= 0 and rest <= margin ** 2, f"{self.who}: the point is the mean of the corners")
         return ways if margin == 0 else unit(size) if rest < margin ** 2 else []
     def mean(self, k, weights):
         """(the sum of weight corner, or of weight p + S m, m.S m <= weight^2; ways as above, but for the margin)."""
@@ -422,6 +440,7 @@ class Motion:
     t1: object = ZERO
     by: Fraction = ZERO
     errors: tuple = (None, None)  # Sides about 0: of the obstacle's position, of w
+    along: int = 0  # of what passes a wall: to the side z > 0, 1, or z < 0, -1, of its frame
     cuts: tuple = ()  # of enclosing halves: (a, s, sign) with sign (a.y - s) >= 0, y = x - t v_B
 
     @property
@@ -447,6 +466,8 @@ SAYS = {
     "in_for_all": "for any errors there is a common point at a time of the horizon",
     "inside": "each point of the agent is in the obstacle",
     "apart": "no two points within the tubes of a pair are as near as `by` at any time",
+    "stays": "whatever the motions within the tubes, all of the one is in the other all the time",
+    "passed": "any continuous motion within the tubes goes through the hole of the wall, and touches none of it",
     "meet": "whatever the motions within the tubes, the two have a common point at a time",
     "near": "whatever the motions within the tubes, two points are at a time no farther apart than `by`"}
 SAME = {"disjoint": "out", "overlapping": "in", "touching": "on"}
@@ -717,7 +738,8 @@ def placed(its, start, end, after):
 def run(claim, proof, reader):
     """(what is proved, what was read of the claim)."""
     says, apart = claim["says"], claim["says"] == "apart"
-    needed = "says from to bodies tracks " + {"apart": "by pairs", "near": "by pair", "meet": "pair"}[says]
+    needed = "says from to bodies tracks " + {
+        "apart": "by pairs", "near": "by pair", "meet": "pair", "stays": "pair", "passed": "pair along"}[says]
     read = fields(claim, "the claim", needed, "id")
     start, end = vars(read)["from"], read.to
     bodies, read.bodies = zip(*(reader.body(body, "a body") for body in read.bodies))
@@ -726,14 +748,68 @@ def run(claim, proof, reader):
           "from < to, and tracks have all of it")
     pairs = [tuple(index(k, len(bodies), "a body") for k in pair) for pair in (read.pairs if apart else [read.pair])]
     form(all(i < j for i, j in pairs) and len(set(pairs)) == len(pairs), "pairs are [i, j] with i < j, none twice")
+    along, second = getattr(read, "along", 0), read.bodies[pairs[0][1]]
+    form(says != "passed" or type(along) is int and abs(along) == 1 and second.kind == "wall" and not second.center,
+         "passed: along is 1 or -1, the second body a wall about its origin")
     holds(not apart or type(proof) is dict and proof.get("rule") == "pairs", "pairs is the rule for 'apart'")
     proofs = fields(proof, "the proof", "rule pairs").pairs if apart else {f"{i} {j}": proof for i, j in pairs}
     form(type(proofs) is dict and set(proofs) == {f"{i} {j}" for i, j in pairs}, "a proof for each pair, no other")
     for i, j in pairs:
         sides = (Side(who, bodies[k], range(len(bodies[k].pieces)), track=read.tracks[k])
                  for who, k in (("agent", i), ("obstacle", j)))
-        prove(Motion(says, *sides, start, end, getattr(read, "by", ZERO)), proofs[f"{i} {j}"])
+        prove(Motion(says, *sides, start, end, getattr(read, "by", ZERO), along=along), proofs[f"{i} {j}"])
     return says, read
+
+def instant(side, t, after):
+    """placed() at a time, as numbers."""
+    place, q = (V(a.start() for a in forms) for forms in placed(side.track, t, t, after))
+    q = q or V((ONE, *zero(3)))
+    holds(q @ q > 0, f"{side.who}: q.q > 0")
+    return place, q
+
+def passage(m, read):
+    """Wholly on one side of the wall, then wholly on the other, apart from it all the time, and never as far from its
+    middle as its edge is. So what is continuous goes through the hole."""
+    prove(replace(m, says="apart"), read.proof)
+    wide, up = sum(side.track.radius for side in m.sides), unit(3)[2]
+    for t, sign in ((m.t0, -m.along), (m.t1, m.along)):
+        (x, q), (p, its) = (instant(side, t, m.t0) for side in m.sides)
+        n = unturned(V((its[0], *-V(its[1:]))), up * sign)[0]
+        beyond = n @ (x - p) - m.agent.reach(unturned(q, -n)[0] * (1 / (q @ q)))
+        holds(beyond > wide * (its @ its), f"wholly on a side at {say(t)}: {say(beyond)} > {say(wide * (its @ its))}")
+    m.agent.within(read.reach)
+    reach = read.room + read.reach + wide
+    for *_, a, b in map(m.obstacle.body.points, m.obstacle.group):
+        holds(reach ** 2 * ((a - b) @ (a - b)) <= cross_product(a, b)[2] ** 2, f"its edge is beyond {say(reach)}")
+    times = sorted({m.t0, m.t1, *(t for side in m.sides for t in side.track.times if m.t0 < t < m.t1)})
+    for start, end in zip(times, times[1:]):
+        x, p = (placed(side.track, start, end, start)[0] for side in m.sides)
+        holds((Form([read.room ** 2]) - (x - p) @ (x - p)).not_negative(), f"within {say(read.room)} from {say(start)}")
+    for side, t in ((side, t) for side in m.sides for t in times[1:-1]):
+        jump = instant(side, t, m.t0)[0] - instant(side, t, t)[0]
+        holds(jump @ jump <= (2 * side.track.radius) ** 2, f"{side.who}: no jump at {say(t)}")
+
+def chords(m, read):
+    """The control points of the way are so near to the obstacle's core that all of the agent is in its margin."""
+    k = m.obstacle.named(read)
+    room = m.obstacle.body.pieces[k][0].margin - read.reach - sum(side.track.radius for side in m.sides)
+    form(not m.obstacle.track.turns, "what it stays within does not turn")
+    m.agent.within(read.reach)
+    for start, end, means in steps(m, read.times, read.means):
+        (x, q), (p, _) = (placed(side.track, start, end, start) for side in m.sides)
+        holds(not q or (q @ q).positive(), f"agent: q.q is positive from {say(start)}")
+        columns, scale = table(x - p)
+        form(len(means) == len(columns), f"{len(columns)} control points from {say(start)}")
+        for i, (column, weights) in enumerate(zip(columns, means)):
+            off = column * Fraction(1, scale * comb(len(columns) - 1, i)) - m.obstacle.mean(k, weights)[0]
+            holds(room >= 0 and off @ off <= room ** 2, f"control point {i} from {say(start)} is within {say(room)}")
+
+def steps(m, times, each):
+    """(start, end, what is given for it) of the pieces of time."""
+    holds(times[0] == m.t0 and times[-1] == m.t1, "pieces from the start to the end")
+    holds(all(a < b for a, b in zip(times, times[1:])), "times grow")
+    form(len(each) == len(times) - 1, "one for each piece of time")
+    return zip(times, times[1:], each)
 
 def near(m, read):
     """A point of each at a time, and its depth: the ball of that radius is in its piece. Points are given as they are
@@ -742,26 +818,21 @@ def near(m, read):
     room, way = m.by, zero(3)
     for side, sign in zip(m.sides, (-1, 1)):
         own, weights, depth = (getattr(read, f"{side.who}_{name}") for name in ("point", "weights", "depth"))
-        k, own, skin = side.named(read), own or read.point, side.body.pieces[side.named(read)][0]
+        k, own, depth = side.named(read), own or read.point, depth or ZERO
         form(own or weights, f"{side.who}: a point or weights are missing")
-        form(not depth or not skin.cuts and not weights, f"{side.who}_depth: of ellipsoids, balls, boxes")
-        place, q = (V(a.start() for a in forms) for forms in placed(side.track, read.time, read.time, m.t0))
-        q = q or V((ONE, *zero(3)))
-        holds(q @ q > 0, f"{side.who}: q.q > 0")
+        form(not depth or not side.body.pieces[k][0].cuts, f"{side.who}_depth: of what has no dents")
+        place, q = instant(side, read.time, m.t0)
         x = unturned(q, own - place)[0] * (1 / (q @ q)) if own else side.mean(k, weights)[0]
-        side.contains(x, k, weights)
-        for away in unit(3) if depth else ():  # the ball is within the octahedron of x +- 2 depth e_i
+        side.contains(x, k, weights, depth)
+        for away in unit(3) if depth and not weights else ():  # the ball is within the octahedron of x +- 2 depth e_i
             side.contains(x + away * (2 * depth), k)
             side.contains(x - away * (2 * depth), k)
         way += (own or place + unturned(V((q[0], *-V(q[1:]))), x)[0] * (1 / (q @ q))) * sign
-        room += (depth or 0) - side.track.radius
+        room += depth - side.track.radius
     holds(room >= 0 and way @ way <= room ** 2, f"{say(way)} is no longer than {say(room)}")
 
 def pieces(m, read):
-    holds(read.times[0] == m.t0 and read.times[-1] == m.t1, "pieces from the start to the end")
-    form(len(read.planes) == len(read.times) - 1, "a plane for each piece")
-    for start, end, (n, length, *rest) in zip(read.times, read.times[1:], read.planes):
-        holds(start < end, f"times grow: {say(start)} < {say(end)}")
+    for start, end, (n, length, *rest) in steps(m, read.times, read.planes):
         n, length, when = vector(n, 3), positive(length), f" from {say(start)} to {say(end)}"
         form(len(rest) != 3, "a plane is [n, length, l_A, l_B], and, if wanted, the multipliers of both")
         holds(length ** 2 >= n @ n, f"length >= |n|{when}")
@@ -779,24 +850,26 @@ RULES = {(claim, rule): (check, needed, allowed) for claims, rule, check, needed
     ("out on inside apart", "groups", groups, "of runs proofs", ""),
     ("out apart", "cover", cover, "of boxes runs proof", ""),
     ("out", "plane", plane, "", f"n across_w {' '.join(LEVELS)} agent_multipliers obstacle_multipliers"),
-    ("out", "times", times, "cuts proofs", ""), ("out", "forms", forms, "agent obstacle", "products"),
+    ("out apart", "times", times, "cuts proofs", ""), ("out", "forms", forms, "agent obstacle", "products"),
     ("out", "halves", halves, "normal at below above", ""), ("on", "touch", touch, "n time point", WHERE),
     ("in", "point", point, "time point inside", WHERE),
     ("in", "cross", cross, "time pairs", "agent_piece obstacle_piece"),
     ("in_for_all", "octants", octants, "nodes", ""), ("depends", "errors", depends, "collides passes", ""),
     ("inside", "vertices", vertices, "", "obstacle_piece"), ("apart", "pieces", pieces, "times planes", ""),
+    ("passed", "through", passage, "room reach proof", ""), ("stays", "chords", chords, "reach times means", ""),
     ("near meet", "point", near, "time", f"{WHERE} point agent_point obstacle_point agent_depth obstacle_depth"),
     ) for claim in claims.split()}
 READERS = {  # of fields, by name; the others are read where they are used
     **dict.fromkeys("format says rule kind name sha256 of inside tree".split(), text),
     **dict.fromkeys(("level", "time", "at", "from", "to", *LEVELS), number),
-    **dict.fromkeys("by radius margin ball cell agent_depth obstacle_depth".split(), positive),
+    **dict.fromkeys("by radius margin ball cell extent room reach agent_depth obstacle_depth".split(), positive),
     **dict.fromkeys("center velocity low high n normal point position box agent_point obstacle_point".split(), vector),
     **dict.fromkeys("cuts agent_multipliers obstacle_multipliers".split(), several(number)),
     **dict.fromkeys("agent_weights obstacle_weights".split(), several(several(least=2, most=3))),
     **dict.fromkeys("proofs pieces bodies".split(), several()), "tracks": several(track), "times": several(number, 2),
     "pairs": lambda value: value if type(value) is dict else several(several(least=2, most=3))(value),
     "factor": matrix, "matrix": symmetric, "shape": symmetric, "points": several(vector), "horizon": horizon,
+    "means": several(several(several(several(least=2, most=3)))), "outline": several(lambda v: vector(v, 2, 2), 3),
     "matrices": several(lambda value: symmetric(value, 4)), "products": several(several(least=3, most=3), 0),
     "triangles": several(several(least=3, most=3)), "boxes": several(several(vector, 2, 2)),
     "delimiters": several(lambda value: fields(value, "a delimiter", "matrix level")),
@@ -831,7 +904,8 @@ def check(document, reader):
          "the format must be vericone-certificate, version 1")
     says = read.claim.get("says") if type(read.claim) is dict else None
     form(type(says) is str and says in SAYS and says != "in_for_all", f"`says` must be one of {', '.join(SAYS)}")
-    proved, claim = (run if says in ("apart", "near", "meet") else verdict)(read.claim, read.proof, reader)
+    of_run = says in ("apart", "near", "meet", "passed", "stays")
+    proved, claim = (run if of_run else verdict)(read.claim, read.proof, reader)
     form(type(getattr(claim, "id", None)) in (str, int, float, type(None)), "id must be a text or a number")
     unsure = getattr(claim, "position_error", None) or getattr(claim, "velocity_error", None)
     said = "robust" if unsure and "robust" in answer else "verdict"

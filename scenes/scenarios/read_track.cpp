@@ -23,6 +23,7 @@ using input::Value;
 using simulation::Piecewise, simulation::Trajectory;
 
 enum class Between { linear, hermite };
+enum class Facing { fixed, level };
 
 /// [x, y, z], or [x, y] in the plane.
 Value<Vector3d> place(const char* unit) {
@@ -65,6 +66,7 @@ struct TrackFields {
   double interval = 0, yaw_interval = 0;
   int degree = 3;
   Between between = Between::linear;
+  Facing orientation = Facing::fixed;
 };
 
 const Fields<TrackFields>& track_fields() {
@@ -124,7 +126,11 @@ const Fields<TrackFields>& track_fields() {
           .row("between", &T::between,
                input::choice<Between>({{"linear", Between::linear}, {"hermite", Between::hermite}}),
                "Straight from place to place, or cubics with velocities.")
-          .only_of({"poses"}, "poses");
+          .only_of({"poses"}, "poses")
+          .row("orientation", &T::orientation,
+               input::choice<Facing>({{"fixed", Facing::fixed}, {"level", Facing::level}}),
+               "`level`: its x axis along its velocity, which is never zero or vertical and does not turn at "
+               "once; its y axis level. Not of a track that says how it turns.");
   return fields;
 }
 
@@ -398,7 +404,12 @@ Trajectory read_track(const Json& value, const std::string& path, const std::fil
     return of_poses(track, path, file, times_file);
   };
   try {
-    return made();
+    Trajectory found = made();
+    if (track.orientation == Facing::fixed) return found;
+    if (found.turned)
+      throw InputError(input::join(path, "orientation"), input::quoted(value["orientation"]),
+                       "left out: the track says itself how it turns");
+    return simulation::turned_along(std::move(found));
   } catch (const InputError& e) {
     const std::string& field = e.field();
     const auto names = [&](const std::string& one) {

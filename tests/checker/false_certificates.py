@@ -6,6 +6,7 @@ DROP = object()  # in place of a value: nothing is left there
 # The false certificates that a checker with one mistake would accept: what is changed in an example.
 OUT, POINT, TOUCH = ("plane", "out"), ("point", "in"), ("touch", None)
 MEET, DENT = ("point", "meet", 1), ("pairs", "apart", 1)
+WINDOW, LEG = ("through", "passed"), ("chords", "stays")
 CYLINDER, DISC, STANDS = ("plane", "out", 2), ("point", "in", 1), ("touch", "touching")
 FALSE = [
     # numbers
@@ -158,6 +159,39 @@ FALSE = [
         (["claim", "tracks", 0, "turns", 0, 1], [8, 0, 0, 8]), (["claim", "by"], "2/10"))),
     *((DENT, ["proof", "pairs", "0 1", "planes", 0, k], value) for k, value in (
         (2, ["16/10"]), (4, []), (4, [5]), (4, [5, -1]), (4, [0, 0]), (4, [5, 1, 1]), (5, [1]), (5, DROP), (1, "1/2"), (0, [0, -1, 0]), (3, [-1]))),
+    # through a hole: a ring that is none, one that goes round twice, beside its edge, from the wrong side, by a leap
+    *((WINDOW, path, value) for path, value in (
+        (["claim", "along"], -1), (["claim", "along"], 0), (["claim", "along"], True), (["claim", "along"], 2), (["claim", "along"], "1"),
+        (["claim", "along"], DROP), (["claim", "pair"], [1, 0]), (["claim", "pair"], [0, 0]), (["claim", "by"], 0), (["claim", "says"], "apart"),
+        (["claim", "from"], 1), (["claim", "to"], 1), (["claim", "to"], "3/2"), (["claim", "bodies", 0, "radius"], 1),
+        (["claim", "bodies", 1, "outline"], [[1, -1], [1, 1]]), (["claim", "bodies", 1, "outline"], [[1, 1], [1, -1], [-1, -1], [-1, 1]]),
+        (["claim", "bodies", 1, "outline"], [[1, -1], [1, 1], [-1, 1], [-1, -1]] * 2), (["claim", "bodies", 1, "outline", 3], DROP),
+        (["claim", "bodies", 1, "outline"], [[3, -1], [3, 1], [1, 1], [1, -1]]), (["claim", "bodies", 1, "outline", 0], [1, -1, 0]),
+        (["claim", "bodies", 1, "outline"], [[1, -1], [1, 1], [0, 0], [-1, -1]]), (["claim", "bodies", 1, "outline", 2], [-1, -2]),
+        (["claim", "bodies", 1, "extent"], 1), (["claim", "bodies", 1, "extent"], "1/2"), (["claim", "bodies", 1, "extent"], -8),
+        (["claim", "bodies", 1, "extent"], 4), (["claim", "bodies", 1, "center"], [0, 0, 0]), (["claim", "bodies", 1, "center"], [0, 0, -9]),
+        (["claim", "bodies", 1], {"kind": "hull", "points": [[9, 9, 0], [9, 8, 0], [8, 9, 0], [8, 8, 0]]}),
+        (["claim", "tracks", 0, "radius"], "1/2"), (["claim", "tracks", 1, "radius"], "4"), (["claim", "tracks", 0, "positions", 0, 1], [1, 0, 0]),
+        (["claim", "tracks", 0, "positions", 0], [[0, 0, -4], ["1/8", 0, -4]]), (["claim", "tracks", 0, "positions", 1, 0], ["1/8", 0, 3]),
+        (["claim", "tracks", 0, "positions", 0, 0], [0, 0, "-1/2"]), (["claim", "tracks", 0, "positions", 1, 1], [0, 0, "1/2"]),
+        (["claim", "tracks", 0, "positions", 1, 1], [0, 0, 40]), (["claim", "tracks", 1, "turns", 0, 1], [0, 0, 0, 8]),
+        (["claim", "tracks", 1, "turns", 0, 0], [0, 8, 0, 0]), (["proof", "room"], 3), (["proof", "room"], 8), (["proof", "room"], -4), (["proof", "room"], DROP), (["proof", "reach"], "2/5"), (["proof", "reach"], 4), (["proof", "reach"], -1), (["proof", "reach"], DROP),
+        (["proof", "proof"], DROP), (["proof", "proof", "cuts"], ["1/2"]), (["proof", "proof", "cuts"], []), (["proof", "proof", "proofs", 1], DROP),
+        (["proof", "proof", "proofs", 0, "runs"], [[0, 2], [1, 1], [2, 1]]), (["proof", "proof", "proofs", 0, "proofs", 3], DROP),
+        (["proof", "proof", "proofs", 0, "proofs", 0, "planes", 0, 3], [-1]))),
+    # in a corridor: too narrow, a body that reaches farther, a way beside it, means that are none
+    *((LEG, path, value) for path, value in (
+        (["claim", "bodies", 1, "margin"], "3/2"), (["claim", "bodies", 1, "margin"], DROP), (["claim", "bodies", 1, "parts", 1, "center", 0], 3),
+        (["claim", "bodies", 1], {"kind": "hull", "points": [[-9, -9, -9], [9, 9, 9]]}), (["claim", "bodies", 0, "shape", 0, 0], 2),
+        (["claim", "bodies", 0], {"kind": "hull", "points": [[0, 0, 0], [1, 1, 0]]}), (["claim", "bodies", 0, "center"], ["1/2", 0, 0]),
+        (["claim", "bodies", 0], {"kind": "boxes", "boxes": [[[-1, -1, 0], [0, 0, 0]]]}), (["claim", "tracks", 0, "radius"], 1),
+        (["claim", "tracks", 1, "radius"], 1), (["claim", "tracks", 1, "turns"], [[[1, 0, 0, 0]]]), (["claim", "tracks", 0, "positions", 0, 1], [4, 4, 0]),
+        (["claim", "tracks", 1, "positions", 0, 0], [0, 2, 0]), (["claim", "from"], 1), (["claim", "to"], 1), (["claim", "along"], 1), (["claim", "by"], 0),
+        (["claim", "tracks", 0, "turns", 0, 1], [-1, 0, 0, 0]), (["claim", "tracks", 0, "turns", 0, 1], [0, 0, 0, 0]),
+        (["claim", "says"], "meet"), (["proof", "reach"], "1/2"), (["proof", "reach"], 2), (["proof", "times"], [0, 1]), (["proof", "times"], [0, 2, 1]),
+        (["proof", "times"], [0, "3/2", 2]), (["proof", "means", 1], DROP), (["proof", "means", 0, 2], DROP), (["proof", "means", 0, 0], []),
+        (["proof", "means", 0, 0], [[0, 2]]), (["proof", "means", 0, 0], [[0, 2], [1, -1]]), (["proof", "means", 0, 0], [[1, 1]]),
+        (["proof", "means", 0, 0], [[2, 1]]), (["proof", "means", 0, 0], [[-1, 1]]), (["proof", "means", 0, 0], [[0, "1/2"]]))),
     (("point", "meet"), ["proof", "time"], 1), (("point", "meet"), ["proof", "time"], 5), (("point", "meet"), ["claim", "tracks", 0, "radius"], "1/10"),
     (("point", "meet"), ["proof", "point"], [2, 4, 0]), (("point", "meet"), ["claim", "pair"], [1, 1]),
 ]

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <vericone/scenarios/scenario_files.h>
+#include <vericone/work/staged_folder.h>
 #include <algorithm>
+#include <filesystem>
 #include <iostream>
 #include <optional>
 #include <ostream>
@@ -10,6 +12,7 @@
 #include "input/scene.h"
 #include "input/stopwatch.h"
 #include "json/json_value.h"
+#include "output/figures.h"
 #include "output/number_text.h"
 #include "output/output_file.h"
 #include "output/progress.h"
@@ -24,8 +27,8 @@ using namespace simulation;
 using scenario::print_line, scenario::TracksFile;
 
 struct CertifyCommand {
-  std::string tracks, certificate;
-  bool quiet = false, json = false;
+  std::string tracks, certificate, out;  // out: folder of the picture, or none
+  bool figures = true, quiet = false, json = false;
 };
 
 constexpr std::size_t kMostPairs = 12;
@@ -143,10 +146,7 @@ std::optional<Written> write_certificates(const TracksFile& tracks, const Certif
   for (const RunCertificate& one : made.made) {
     text.append(one.text).append("\n");
     pairs += one.pairs.size();
-    written.lines.push_back(std::to_string(one.pairs.size()) + (one.pairs.size() == 1 ? " pair" : " pairs") +
-                            (one.near ? " in contact at a time" : " apart") +
-                            (one.by > 0 ? " by " + to_text(one.by) + " m" : "") + " from " +
-                            to_text(one.from) + " to " + to_text(one.to) + " s: " + file);
+    written.lines.push_back(scenario::certificate_text(one) + ": " + file);
   }
   written.json["pairs"] = pairs;
   for (const WithoutCertificate& none : made.none) {
@@ -157,12 +157,56 @@ std::optional<Written> write_certificates(const TracksFile& tracks, const Certif
   return written;
 }
 
+/// What the picture is drawn from: the answer, and where the bodies are over time.
+Json picture_json(const TracksFile& tracks, const CertifiedTracks& certified) {
+  constexpr int kPlaces = 400;
+  Json data = scenario::certified_json(tracks, certified);
+  data["required"] = tracks.options.required;
+  data["bodies"] = Json::array();
+  for (std::size_t i = 0; i < tracks.bodies.size(); ++i) {
+    const Track& track = certified.tracks[i].track;
+    Json positions = Json::array();
+    for (int k = 0; k < kPlaces; ++k) {
+      const double share = static_cast<double>(k) / (kPlaces - 1);
+      const double t = track.appears() + share * (track.end() - track.appears());
+      positions.push_back(vector_json(track.motion(std::min(t, track.end())).position));
+    }
+    data["bodies"].push_back({{"name", tracks.bodies[i].name},
+                              {"radius", tracks.bodies[i].radius},
+                              {"from", track.appears()},
+                              {"to", track.end()},
+                              {"positions", std::move(positions)}});
+  }
+  for (std::size_t i = 0; i < certified.pairs.size(); ++i) {
+    const Track &a = certified.tracks[certified.pairs[i].a].track,
+                &b = certified.tracks[certified.pairs[i].b].track;
+    data["pairs"][i]["there"] = {
+        std::max({a.appears(), b.appears(), tracks.options.from.value_or(a.appears())}),
+        std::min({a.end(), b.end(), tracks.options.to.value_or(a.end())})};
+  }
+  return data;
+}
+
+/// Where its files are.
+std::string write_picture(const TracksFile& tracks, const CertifiedTracks& certified,
+                          const CertifyCommand& options, work::StagedFolder& folder) {
+  write_whole(folder.path() / "certified.json", picture_json(tracks, certified).dump(1) + "\n");
+  if (options.figures) draw_figures("certified.py", folder.path());
+  std::string list;
+  for (const auto& file : folder.publish({"certified.json", "certified.pdf", "certified.png"}))
+    list.append(list.empty() ? "" : ", ").append(file.filename().string());
+  return options.out + ": " + list;
+}
+
 /// Proves what a file of tracks asks. Returns the exit status: 0 whatever the answers are, 130 interrupted.
 /// Throws InputError.
 int run_certify(const CertifyCommand& options, std::ostream& out) {
   TracksFile tracks = scenario::tracks_of_text(input::read_scene_text(options.tracks), options.tracks);
+  std::optional<work::StagedFolder> folder;
+  if (!options.out.empty()) folder.emplace(options.out, "--out");
   std::optional<Written> written;
   std::optional<CertifiedTracks> certified;
+  std::string picture;
   double seconds = 0;
   {
     Progress progress(options.quiet);
@@ -175,6 +219,10 @@ int run_certify(const CertifyCommand& options, std::ostream& out) {
       written = write_certificates(tracks, *certified, options.certificate, progress);
       if (!written) return kExitInterrupted;
     }
+    if (folder) {
+      progress.show("drawing", 0);
+      picture = write_picture(tracks, *certified, options, *folder);
+    }
   }
   if (options.json) {
     Json answer = scenario::certified_json(tracks, *certified);
@@ -186,6 +234,7 @@ int run_certify(const CertifyCommand& options, std::ostream& out) {
   if (written)
     for (const std::string& line : written->lines)
       print_line(out, &line == &written->lines.front() ? "certificate" : "", line);
+  if (folder) print_line(out, "written", picture);
   return 0;
 }
 
@@ -200,6 +249,9 @@ int certify_command(CommandLine& line) {
   line.option("--certificate", certify.certificate,
               "Also write here what proves that bodies stay apart, for programs that check it "
               "(docs/reference/certificates.md)");
+  line.option("--out", certify.out,
+              "Folder for a picture of the tracks and of what is proved when, certified.png, and its data");
+  line.negative_flag("--no-figures", certify.figures, "Data of the picture only");
   line.flag("--quiet", certify.quiet, "No progress");
   line.flag("--json", certify.json, "Print JSON");
   line.read();

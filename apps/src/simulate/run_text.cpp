@@ -303,6 +303,30 @@ void print_line(std::ostream& out, std::string label, const std::string& text) {
   out << label << text << '\n';
 }
 
+std::string certificate_text(const simulation::RunCertificate& certificate) {
+  const std::string by = certificate.by > 0 ? " " + to_text(certificate.by) + " m" : "";
+  std::string text =
+      std::to_string(certificate.pairs.size()) + (certificate.pairs.size() == 1 ? " pair" : " pairs");
+  switch (certificate.says) {
+    case simulation::RunClaim::apart:
+      text += by.empty() ? " apart" : " apart by" + by;
+      break;
+    case simulation::RunClaim::near:
+      text += " no farther apart at a time than" + by;
+      break;
+    case simulation::RunClaim::meet:
+      text += " in contact at a time";
+      break;
+    case simulation::RunClaim::passed:
+      text = "a passage";
+      break;
+    case simulation::RunClaim::stays:
+      text = "a corridor";
+      break;
+  }
+  return text + " from " + to_text(certificate.from) + " to " + to_text(certificate.to) + " s";
+}
+
 void Facts::print(bool json, std::ostream& out) const {
   Json list = Json::array();
   for (const auto& [label, text] : lines_) {

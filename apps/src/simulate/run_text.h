@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <vericone/simulation/certificate.h>
 #include <vericone/simulation/run.h>
 #include <iosfwd>
 #include <string>
@@ -24,6 +25,9 @@ std::string agent_text(const simulation::Scenario& scenario, const simulation::B
 
 /// Outline, size and motion of an orifice, in a line.
 std::string orifice_words(const simulation::MovingOrifice& orifice);
+
+/// What a certificate says, and of when, in a line.
+std::string certificate_text(const simulation::RunCertificate& certificate);
 
 /// What a file means, line by line.
 class Facts {

@@ -62,9 +62,7 @@ Json certificate_json(const simulation::RunCertificates& certificates) {
 void print_certificates(const simulation::RunCertificates& certificates, std::ostream& out) {
   for (const simulation::RunCertificate& one : certificates.made)
     scenario::print_line(out, &one == &certificates.made.front() ? "certificate" : "",
-                         std::to_string(one.pairs.size()) + (one.pairs.size() == 1 ? " pair" : " pairs") +
-                             " apart" + (one.by > 0 ? " by " + to_text(one.by) + " m" : "") + " from " +
-                             to_text(one.from) + " to " + to_text(one.to) + " s");
+                         scenario::certificate_text(one));
   for (const simulation::WithoutCertificate& none : certificates.none)
     scenario::print_line(
         out, certificates.made.empty() && &none == &certificates.none.front() ? "certificate" : "",

@@ -90,6 +90,12 @@ CASES = [
     ("velocities of straight lines", tracks("{kind: poses, times: [0, 1], points: [[0, 0, 0], [1, 0, 0]], velocities: "
                                             "[[1, 0, 0], [1, 0, 0]]}")),
     ("a rotation too few", tracks("{kind: poses, times: [0, 1], points: [[0, 0, 0], [1, 0, 0]], rotations: [[1, 0, 0, 0]]}")),
+    ("an unknown orientation of a track", tracks("{kind: poses, file: poses.tum, orientation: heading}")),
+    ("an orientation beside rotations", tracks("{kind: poses, file: poses.tum, orientation: level}")),
+    ("a track along its velocity that stands still", tracks("{kind: powers, times: [0, 2], pieces: [[[0, 0, 0], [0, 0, 0], [1, 0, 0]]], "
+                                                            "orientation: level}")),
+    ("a track along its velocity with corners", tracks("{kind: poses, times: [0, 1, 2], points: [[0, 0, 0], [1, 0, 0], [1, 1, 0]], "
+                                                       "orientation: level}")),
     ("an unknown way between poses", tracks("{kind: poses, file: poses.tum, between: cubic}")),
 ]
 

@@ -578,6 +578,7 @@ def tracks_of_others(ask: Ask) -> None:
     each(ask, way, "from_ to")
     ask("simulation.greatest", way, 1)
     trajectory = ask("simulation.turned_through", s.Trajectory(position=way), times, [np.eye(3)] * 3)
+    ask("simulation.turned_along", s.Trajectory(position=v.simulation.piecewise_of_powers([0, 1], [points + [1, 0, 0]])), 1e-4)
     ball = s.ShapeInTime(s.RigidShape(v.WorldBody(BALL)))
     ask("simulation.fitted_track", ball, trajectory)
     bodies = [s.TrackedBody(name="A", shape=ball, trajectory=trajectory, most_speed=3),

@@ -324,8 +324,8 @@ TEST(RunCertificate, OfARunAllPairsThatItCan) {
   EXPECT_EQ(found.made[1].from, 1);
   EXPECT_EQ(found.made[0].pairs.front(), (std::pair<std::size_t, std::size_t>{0, 1}));
   EXPECT_NE(found.made[0].text.find(R"("id": "a \"name\": A, B")"), std::string::npos);
-  EXPECT_FALSE(found.made[1].near);
-  EXPECT_TRUE(found.made[2].near);
+  EXPECT_EQ(found.made[1].says, RunClaim::apart);
+  EXPECT_EQ(found.made[2].says, RunClaim::meet);
   EXPECT_EQ(found.made[2].pairs.front(), (std::pair<std::size_t, std::size_t>{0, 2}));
   EXPECT_NE(found.made[2].text.find(R"("says": "meet")"), std::string::npos);
   EXPECT_TRUE(found.none.empty());

@@ -311,6 +311,72 @@ TEST(Certify, CertificatesHoldTracksAndRadii) {
   expect_refused([&] { (void)certificates(bodies, wrong, options); }, "certified");
 }
 
+/// The frame along the velocity, level, by its definition.
+Matrix3d along(const Vector3d& v) {
+  Matrix3d r;
+  r.col(0) = v.normalized();
+  r.col(1) = Vector3d::UnitZ().cross(v).normalized();
+  r.col(2) = r.col(0).cross(r.col(1));
+  return r;
+}
+
+TEST(Trajectory, FacesAlongItsVelocity) {
+  Random random(77);
+  for (int i = 0; i < 20; ++i) {
+    std::vector<Vector3d> powers{random.vector(3), Vector3d(3, 0.5, 0.3)};
+    for (int k = 2; k < 6; ++k) powers.push_back(random.vector(1.5 / std::pow(2, k)));
+    const Trajectory plain{piecewise_of_powers({1, 3}, {powers}), {}};
+    for (const double within : {1e-3, 1e-5}) {
+      const Trajectory made = turned_along(plain, within);
+      EXPECT_LE(made.turned->error, within * (1 + 1e-9));
+      const FittedTrack fitted = fitted_track(ball(1), made);
+      double most = 0;
+      for (int j = 0; j <= 3000; ++j) {
+        const double t = 1 + 2 * j / 3000.0;
+        const Matrix3d off = fitted.track.motion(t).rotation.transpose() * along(plain.position.at(t, 1));
+        most = std::max(most, Eigen::AngleAxisd(off).angle());
+      }
+      EXPECT_LE(most, fitted.turn_error);
+      EXPECT_GT(most, 0.01 * within);  // no closer than asked for
+    }
+  }
+  // A circle: at every time a quarter of a turn from its radius.
+  const auto circle = [](double t) { return Vector3d(std::cos(t), std::sin(t), 0); };
+  std::vector<double> times;
+  std::vector<Vector3d> points, velocities;
+  for (int k = 0; k <= 60; ++k) {
+    times.push_back(0.1 * k);
+    points.push_back(circle(times.back()));
+    velocities.push_back(Vector3d::UnitZ().cross(points.back()));
+  }
+  const FittedTrack round =
+      fitted_track(ball(1), turned_along({piecewise_through(times, points, velocities), {}}));
+  for (double t = 0; t <= 6; t += 0.01)
+    EXPECT_LT((round.track.motion(t).rotation.col(1) + circle(t)).norm(), 2e-4);
+  // Standing, climbing straight up, or round a corner there is none.
+  expect_refused([&] { (void)turned_along({piecewise_of_powers({0, 1}, {{{1, 0, 0}}}), {}}); }, "position");
+  expect_refused(
+      [&] {
+        (void)turned_along({piecewise_through({0, 1}, {{0, 0, 0}, {0, 0, 1}}), {}});
+      },
+      "position");
+  expect_refused(
+      [&] {
+        (void)turned_along({piecewise_through({0, 1, 2}, {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}}), {}});
+      },
+      "position");
+  expect_refused(
+      [&] {
+        (void)turned_along({piecewise_of_powers({-1, 1}, {{{1, 0, 0}, {-2, 0, 0}, {1, 0, 0}}}), {}});
+      },
+      "position");  // reverses where it stands
+  expect_refused(
+      [&] {
+        (void)turned_along({piecewise_through({0, 1}, {{0, 0, 0}, {1, 0, 0}}), {}}, 0);
+      },
+      "within");
+}
+
 TEST(Trajectory, BadInput) {
   const Vector3d o(0, 0, 0), bad(0, std::numeric_limits<double>::quiet_NaN(), 0);
   expect_refused([&] { (void)piecewise_through({0, 0}, {o, o}); }, "times[1]");

@@ -142,21 +142,40 @@ Form linear(const std::array<double, 2>& limit) {
   return form;
 }
 
-/// r^2 - n'.S n' is nowhere negative, n' the normal seen from the body.
-bool covers(const Form& r, const Unturned& seen, const Eigen::Matrix3d& matrix, bool factor) {
+/// n'.S n', n' the normal seen from the body.
+Form square(const Unturned& seen, const Eigen::Matrix3d& matrix, bool factor) {
   int grid = kNoGrid;
   for (int i = 0; i < 9; ++i) grid = std::min(grid, grid_of(matrix(i / 3, i % 3)));
   grid = some(grid);
-  Form rest{product(r.c, r.c), 2 * r.exponent};
+  Form sum{{0}, 0};
   const auto on = [&](int i, int j) { return exact::on_grid(matrix(i, j), grid); };
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j <= i; ++j) {
       Integer s = factor ? on(i, 0) * on(j, 0) + on(i, 1) * on(j, 1) + on(i, 2) * on(j, 2) : on(i, j);
       if (s.is_zero()) continue;
       if (i != j) s *= 2;
-      add(rest, {product(seen.normal[i], seen.normal[j]), factor ? 2 * grid : grid}, -s);
+      add(sum, {product(seen.normal[i], seen.normal[j]), factor ? 2 * grid : grid}, s);
     }
+  return sum;
+}
+
+Form product(const Form& a, const Form& b) { return {product(a.c, b.c), a.exponent + b.exponent}; }
+
+/// r is nowhere below sqrt(q1) + sqrt(q2), nor negative.
+bool covers(const Form& r, const std::vector<Form>& squares) {
+  if (!not_negative(r.c)) return false;
+  Form rest = product(r, r);
+  for (const Form& q : squares) add(rest, q, -1);
+  if (!squares.empty() && !not_negative(rest.c)) return false;
+  if (squares.size() < 2) return true;
+  rest = product(rest, rest);
+  add(rest, product(squares[0], squares[1]), -4);
   return not_negative(rest.c);
+}
+
+bool covers(const Form& r, const Unturned& seen, const Ellipsoid& body) {
+  const bool factor = body.defined_by_factor();
+  return covers(r, {square(seen, factor ? body.factor() : body.shape(), factor)});
 }
 
 /// l q.q less the largest of n'.x over these points, coefficient by coefficient.
@@ -304,26 +323,42 @@ std::vector<Eigen::Vector3d> corners_of(const Side& side) {
   return corners;
 }
 
+/// Of each part of a piece.
+bool covers(const Form& limit, const Unturned& seen, const vericone::Convex& body) {
+  const auto squares_of = [&](const vericone::Convex::Piece& part) {
+    std::vector<Form> squares;
+    if (part.rank > 0) squares.push_back(square(seen, part.shape.value_or(part.factor), !part.shape));
+    if (body.margin() > 0) squares.push_back(square(seen, body.margin() * Eigen::Matrix3d::Identity(), true));
+    return squares;
+  };
+  return std::all_of(body.pieces().begin(), body.pieces().end(), [&](const auto& part) {
+    return covers(less_points(limit, seen, {part.center}), squares_of(part));
+  });
+}
+
 /// n.R b <= limit for the points b of the pieces, R the rotation of q.
 bool bounds(const Side& side, const std::array<Coefficients, 4>& q, const std::array<std::int64_t, 3>& n,
             const Form& most, const std::vector<double>& multipliers) {
   const Unturned seen = unturned(q, n);
   if (!positive(seen.square)) return false;
   const Form limit{product(most.c, seen.square), most.exponent};
-  if (side.solid->rounds.empty()) {
-    if (!multipliers.empty()) return false;
-    const Form r = less_points(limit, seen, corners_of(side));
-    return not_negative(r.c) && (side.solid->radius == 0 ||
-                                 covers(r, seen, side.solid->radius * Eigen::Matrix3d::Identity(), true));
+  const Solid& solid = *side.solid;
+  if (solid.rounds.empty() && !multipliers.empty()) return false;
+  if (solid.cornered()) {
+    std::vector<Form> squares;
+    if (solid.radius > 0) squares.push_back(square(seen, solid.radius * Eigen::Matrix3d::Identity(), true));
+    return covers(less_points(limit, seen, corners_of(side)), squares);
   }
+  if (!solid.convexes.empty())
+    return std::all_of(side.group->begin(), side.group->end(),
+                       [&](std::uint32_t piece) { return covers(limit, seen, solid.convexes[piece]); });
   return std::all_of(side.group->begin(), side.group->end(), [&](std::uint32_t piece) {
-    const Ellipsoid& body = side.solid->rounds[piece].ellipsoid();
+    const Ellipsoid& body = solid.rounds[piece].ellipsoid();
     const Form r = less_points(limit, seen, {body.center()});
     if (!multipliers.empty())
       return side.group->size() == 1 && not_negative(r.c) &&
-             definite(r, seen, side.solid->rounds[piece], multipliers);
-    const bool factor = body.defined_by_factor();
-    return not_negative(r.c) && covers(r, seen, factor ? body.factor() : body.shape(), factor);
+             definite(r, seen, solid.rounds[piece], multipliers);
+    return covers(r, seen, body);
   });
 }
 
@@ -359,6 +394,12 @@ Form constant(double x) {
 
 Box Solid::bounds(std::uint32_t piece) const {
   if (!boxes.empty()) return boxes[piece];
+  if (!convexes.empty()) return convexes[piece].bounds();
+  if (!rounds.empty()) {
+    const Ellipsoid& body = rounds[piece].ellipsoid();
+    const Eigen::Vector3d half = body.shape().diagonal().cwiseSqrt();
+    return {body.center() - half, body.center() + half};
+  }
   Box box{points[pieces[piece].front()], points[pieces[piece].front()]};
   for (const std::uint32_t i : pieces[piece]) box.include({points[i], points[i]});
   const Eigen::Vector3d about = Eigen::Vector3d::Constant(radius);

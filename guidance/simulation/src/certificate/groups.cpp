@@ -190,7 +190,7 @@ class ByGroups {
  private:
   /// Boxes stand for them; those of which only the boxes are known have no other way.
   static bool is_many(const Solid& solid, const Group& group) {
-    return solid.rounds.empty() && (group.size() > kManyPieces || solid.pieces.empty());
+    return solid.cornered() && (group.size() > kManyPieces || solid.pieces.empty());
   }
 
   std::optional<std::string> by_planes(const Stand& a, const Stand& b) {
@@ -215,6 +215,26 @@ std::optional<std::string> proof_of_pair(const PairQuestion& question, std::stri
                                : "no plane is found from " + to_text(groups.stuck()) + " s on" +
                                      (question.dents ? "; planes do not reach into dents" : "");
   return proof;
+}
+
+std::optional<std::string> proof_by_times(const PairQuestion& question, const std::vector<double>& cuts,
+                                          std::string& reason) {
+  std::vector<double> ends{question.from};
+  for (const double t : cuts)
+    if (t > ends.back() && t < question.to) ends.push_back(t);
+  ends.push_back(question.to);
+  std::string times, proofs;
+  for (std::size_t k = 0; k + 1 < ends.size(); ++k) {
+    PairQuestion part = question;
+    part.from = ends[k];
+    part.to = ends[k + 1];
+    const auto proof = proof_of_pair(part, reason);
+    if (!proof) return std::nullopt;
+    if (k > 0) times.append(k > 1 ? ", " : "").append(text_of(part.from));
+    proofs.append(k > 0 ? ", " : "").append(*proof);
+  }
+  if (ends.size() == 2) return proofs;
+  return R"({"rule": "times", "cuts": [)" + times + "], \"proofs\": [" + proofs + "]}";
 }
 
 }  // namespace vericone::simulation::certified

@@ -2,10 +2,13 @@
 #include "certificate/meeting.h"
 
 #include <vericone/cones/ellipsoids/clearance.h>
+#include <vericone/geometry/error.h>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
+#include "certificate/near_points.h"
 #include "certificate/tube.h"
 
 namespace vericone::simulation::certified {
@@ -82,18 +85,37 @@ bool is_ellipsoid(const Solid& solid) {
   return solid.rounds.size() == 1 && solid.rounds.front().is_ellipsoid();
 }
 
-}  // namespace
-
-std::optional<std::string> proof_of_nearness(const PairQuestion& question) {
-  if (question.dents || !is_ellipsoid(question.a) || !is_ellipsoid(question.b)) return std::nullopt;
-  Found found;
-  for (int i = 0; i < kTimes; ++i) {
-    const double t = question.from + (question.to - question.from) * (i + 0.5) / kTimes;
+/// The question's times, then `count` others, none between two segments of a track.
+std::vector<double> times_of(const PairQuestion& question, int count) {
+  std::vector<double> times = question.times;
+  for (int i = 0; i < count; ++i)
+    times.push_back(question.from + (question.to - question.from) * (i + 0.5) / count);
+  std::erase_if(times, [&](double t) {
     const auto changes = [&](const StatedTrack& track) {
       return std::find(track.times.begin(), track.times.end(), t) != track.times.end();
     };
-    if (!changes(question.track_a) && !changes(question.track_b)) consider_time(found, question, t);
+    return !(t > question.from && t < question.to) || changes(question.track_a) || changes(question.track_b);
+  });
+  return times;
+}
+
+/// Of bodies of any other kind.
+std::optional<std::string> proof_by_points(const PairQuestion& question) {
+  constexpr int kLooks = 60;
+  for (const double t : times_of(question, kLooks)) {
+    checkpoint();
+    if (const auto found = near_points(question, t); found && found->room > 0) return found->proof;
   }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<std::string> proof_of_nearness(const PairQuestion& question) {
+  if (question.dents) return std::nullopt;
+  if (!is_ellipsoid(question.a) || !is_ellipsoid(question.b)) return proof_by_points(question);
+  Found found;
+  for (const double t : times_of(question, kTimes)) consider_time(found, question, t);
   if (!(found.room > 0)) return std::nullopt;
   const auto vector = [](const Vector3d& v) {
     return "[" + text_of(v.x()) + ", " + text_of(v.y()) + ", " + text_of(v.z()) + "]";

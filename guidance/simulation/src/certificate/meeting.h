@@ -9,8 +9,8 @@
 namespace vericone::simulation::certified {
 
 /// The proof, JSON, that at a time of [from, to] two points of them are no farther apart than `by`, whatever
-/// the motions within the tubes: of two bodies that are one ellipsoid each. Found in doubles, with more room
-/// than rounding takes. Nothing where none was found among some hundred times.
+/// the motions within the tubes: of bodies without dents. Found in doubles, with more room than rounding
+/// takes. Nothing where none was found at the question's times, nor among some hundred others.
 [[nodiscard]] std::optional<std::string> proof_of_nearness(const PairQuestion& question);
 
 }  // namespace vericone::simulation::certified

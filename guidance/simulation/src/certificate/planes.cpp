@@ -59,6 +59,10 @@ class Posed {
       }
     };
     for (const std::uint32_t piece : *side_->group) {
+      if (!solid.convexes.empty()) {
+        consider(solid.convexes[piece].support_point(n));
+        continue;
+      }
       if (solid.rounds.empty()) {
         for (const std::uint32_t i : solid.pieces[piece]) consider(solid.points[i]);
         continue;
@@ -333,6 +337,11 @@ class Search {
 };
 
 }  // namespace
+
+double reach_at(const Side& side, double t, const Vector3d& n) {
+  const Posed body(side, std::min(side.track->segment_of(t, t), side.track->segments.size() - 1), t);
+  return n.dot(body.position()) + body.support(n);
+}
 
 std::optional<StatedPieces> planes_between(const Side& a, const Side& b, double by, double from, double to,
                                            double& stuck) {

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "certificate/stated.h"
 
@@ -16,7 +17,8 @@ struct PairQuestion {
   const StatedTrack& track_a;
   const StatedTrack& track_b;
   double by, from, to;
-  bool dents = false;  // one of them has some
+  bool dents = false;           // one of them has some
+  std::vector<double> times{};  // s: where to look first, for what is proved of one time
 };
 
 /// The proof, JSON, each of whose planes was checked in integers: one plane for each piece of time, by groups
@@ -24,8 +26,15 @@ struct PairQuestion {
 /// where none was found.
 [[nodiscard]] std::optional<std::string> proof_of_pair(const PairQuestion& question, std::string& reason);
 
+/// The same, one proof after the other from cut to cut, which ascend within the time.
+[[nodiscard]] std::optional<std::string> proof_by_times(const PairQuestion& question,
+                                                        const std::vector<double>& cuts, std::string& reason);
+
 /// Of groups of pieces by planes. `stuck`: the time from which there is none.
 [[nodiscard]] std::optional<StatedPieces> planes_between(const Side& a, const Side& b, double by, double from,
                                                          double to, double& stuck);
+
+/// The largest n.x of the points x of a side at a time, in doubles.
+[[nodiscard]] double reach_at(const Side& side, double t, const Eigen::Vector3d& n);
 
 }  // namespace vericone::simulation::certified

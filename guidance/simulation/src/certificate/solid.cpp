@@ -51,7 +51,7 @@ Solid of_hull(const HullBody& hull) {
 /// In the order of its pieces, by their numbers.
 template <typename T>
 std::vector<T> in_order(const Assembly& body, const std::vector<T>& by_slot) {
-  std::vector<T> list(by_slot.size());
+  std::vector<T> list = by_slot;
   const auto order = body.hierarchy().order();
   for (std::size_t slot = 0; slot < by_slot.size(); ++slot) list[order[slot]] = by_slot[slot];
   return list;
@@ -92,6 +92,7 @@ void put_side_by_side(Solid& solid) {
     list = std::move(sorted);
   };
   put(solid.boxes);
+  put(solid.convexes);
   if (solid.kind == Solid::Kind::cloud)
     put(solid.points);  // a piece is the point of its number
   else
@@ -139,7 +140,8 @@ OwnFrame of_assembly(const Assembly& body, bool upright) {
       own = of_boxes(in_order(body, storage.boxes), upright);
       break;
     case PieceKind::convex:
-      own.has_words = false;
+      solid.kind = Solid::Kind::convexes;
+      solid.convexes = in_order(body, storage.convexes);
       break;
     case PieceKind::hull:
       solid.kind = Solid::Kind::hulls;
@@ -160,13 +162,15 @@ OwnFrame of_placed(const Placed& placed) {
     own.solid = of_hull(*hull);
   else if (const Assembly* assembly = placed.body.assembly())
     own = of_assembly(*assembly, upright);
-  else if (placed.body.convex())
-    own.has_words = false;
-  else
+  else if (const vericone::Convex* convex = placed.body.convex()) {
+    own.solid.kind = Solid::Kind::convexes;
+    own.solid.convexes = {*convex};
+  } else
     own.solid.rounds = *placed.body.quadrics();
   if (upright) return own;
   for (Vector3d& x : own.solid.points) x = pose.to_world(x);
   for (CombinedEllipsoid& x : own.solid.rounds) x = in_world(x, pose);
+  for (vericone::Convex& x : own.solid.convexes) x = in_world(x, pose);
   const Box bounds = placed.body.bounds();
   own.rounding += 1e-14 * (pose.position.norm() + bounds.low.norm() + bounds.high.norm());
   return own;

@@ -13,9 +13,8 @@ constexpr std::size_t kManyPieces = 256;
 /// A body as a certificate states it, about its reference point, in its own axes.
 struct OwnFrame {
   Solid solid;
-  bool dents = false;     // it, or a piece, has some
-  bool has_words = true;  // none for round parts beside others, or a margin
-  double rounding = 0;    // m, by how much a point of the body may be off in it
+  bool dents = false;   // it, or a piece, has some
+  double rounding = 0;  // m, by how much a point of the body may be off in it
 };
 
 /// All that it is during [from, to].

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <vericone/geometry/combined.h>
+#include <vericone/geometry/convex.h>
 #include <vericone/geometry/pose.h>
 #include <Eigen/Core>
 #include <algorithm>
@@ -21,22 +22,44 @@ namespace vericone::simulation::certified {
 
 struct Octree;
 
-/// A body in its own frame: round pieces, or pieces with corners, which a radius may round.
+/// A flat ring about a hole that is star-shaped about the origin, in the plane z = 0: for each two neighbours
+/// v_k, v_k+1 of the outline the quadrangle of these and of `extent` times them.
+struct Ring {
+  std::vector<Eigen::Vector2d> outline;  // m, counterclockwise
+  double extent;                         // above 1
+};
+
+/// A body in its own frame: round pieces, pieces of flat, round and straight parts, or pieces with corners,
+/// which a radius may round.
 struct Solid {
   std::vector<CombinedEllipsoid> rounds;
+  std::vector<vericone::Convex> convexes;
   std::vector<Eigen::Vector3d> points;             // m
   std::vector<std::vector<std::uint32_t>> pieces;  // of each the numbers of its points
   double radius = 0;                               // m, of a cloud
   /// How it is written; `boxes` and `octree` have the low and the high corner of each piece beside, and of
   /// many pieces these alone.
-  enum class Kind : std::uint8_t { rounds, hull, mesh, cloud, boxes, octree, hulls } kind = Kind::rounds;
+  enum class Kind : std::uint8_t {
+    rounds,
+    convexes,
+    hull,
+    mesh,
+    cloud,
+    boxes,
+    octree,
+    hulls,
+    wall
+  } kind = Kind::rounds;
   std::vector<Box> boxes;
   std::shared_ptr<const Octree> octree;
+  std::optional<Ring> ring;  // of a wall, beside the corners of its quadrangles
 
   [[nodiscard]] std::size_t size() const {
-    return rounds.empty() ? std::max(pieces.size(), boxes.size()) : rounds.size();
+    return std::max({rounds.size(), convexes.size(), pieces.size(), boxes.size()});
   }
-  /// That holds a piece which is no round one.
+  /// Its pieces are corners, or boxes, or balls about corners.
+  [[nodiscard]] bool cornered() const { return rounds.empty() && convexes.empty(); }
+  /// About a piece, rounded.
   [[nodiscard]] Box bounds(std::uint32_t piece) const;
   /// A ball about the origin: how it is turned does not matter.
   [[nodiscard]] bool is_ball() const;

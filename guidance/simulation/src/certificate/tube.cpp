@@ -462,6 +462,15 @@ StatedTrack at_rest(const Motion& motion, const TubeQuestion& question) {
   return Tube(spans, question, turned).made();
 }
 
+Polynomial<3> position_of(const StatedTrack& track, std::size_t segment) {
+  const auto& its = track.segments[segment].position;
+  const double unit = std::ldexp(1.0, -track.grid);
+  Polynomial<3> p(3, static_cast<Eigen::Index>(its.size()));
+  for (std::size_t k = 0; k < its.size(); ++k)
+    for (std::size_t i = 0; i < 3; ++i) p(i, k) = unit * static_cast<double>(its[k][i]);
+  return p;
+}
+
 }  // namespace
 
 std::optional<StatedTrack> tube(const Track& track, const TubeQuestion& question) {
@@ -478,12 +487,8 @@ std::optional<StatedTrack> tube(const Track& track, const TubeQuestion& question
 
 Placement placement(const StatedTrack& track, std::size_t segment, double t) {
   const Segment& its = track.segments[segment];
-  const double unit = std::ldexp(1.0, -track.grid);
   const double from = track.times[segment], tau = (t - from) / (track.times[segment + 1] - from);
-  Polynomial<3> p(3, static_cast<Eigen::Index>(its.position.size()));
-  for (std::size_t k = 0; k < its.position.size(); ++k)
-    for (std::size_t i = 0; i < 3; ++i) p(i, k) = unit * static_cast<double>(its.position[k][i]);
-  Placement found{value_at<3>(p, tau), Matrix3d::Identity()};
+  Placement found{value_at<3>(position_of(track, segment), tau), Matrix3d::Identity()};
   if (!track.turned) return found;
   Polynomial<4> q(4, static_cast<Eigen::Index>(its.turn.size()));
   for (std::size_t k = 0; k < its.turn.size(); ++k)
@@ -491,6 +496,20 @@ Placement placement(const StatedTrack& track, std::size_t segment, double t) {
   const Vector4d at = value_at<4>(q, tau);
   found.rotation = Eigen::Quaterniond(at(0), at(1), at(2), at(3)).normalized().toRotationMatrix();
   return found;
+}
+
+std::vector<Vector3d> control_points(const StatedTrack& track, double from, double to) {
+  const std::size_t k = track.segment_of(from, to);
+  const double first = track.times[k], length = track.times[k + 1] - first;
+  const Polynomial<3> p =
+      part_of_polynomial<3>(position_of(track, k), (from - first) / length, (to - first) / length);
+  std::vector<Vector3d> points;
+  for (Eigen::Index i = 0; i < p.cols(); ++i) points.emplace_back(p.col(i));
+  return points;
+}
+
+Placement placement_at(const StatedTrack& track, double t) {
+  return placement(track, std::min(track.segment_of(t, t), track.segments.size() - 1), t);
 }
 
 }  // namespace vericone::simulation::certified

@@ -5,6 +5,7 @@
 
 #include <vericone/simulation/track.h>
 #include <optional>
+#include <vector>
 
 #include "certificate/stated.h"
 
@@ -31,5 +32,9 @@ struct Placement {
   Eigen::Matrix3d rotation;
 };
 [[nodiscard]] Placement placement(const StatedTrack& track, std::size_t segment, double t);
+/// Bernstein coefficients of the position on [from, to], within one segment, rounded.
+[[nodiscard]] std::vector<Eigen::Vector3d> control_points(const StatedTrack& track, double from, double to);
+/// Between two segments as the later one says.
+[[nodiscard]] Placement placement_at(const StatedTrack& track, double t);
 
 }  // namespace vericone::simulation::certified

@@ -61,6 +61,19 @@ std::string hull_text(const Solid& solid, const std::vector<std::uint32_t>& piec
   return points_text("hull", points) + "}";
 }
 
+std::string convex_text(const vericone::Convex& body) {
+  std::string text = R"({"kind": "convex")";
+  if (body.margin() > 0) text += ", \"margin\": " + text_of(body.margin());
+  return text + ", \"parts\": " +
+         list_of(body.pieces(),
+                 [](const vericone::Convex::Piece& part) {
+                   std::string own = R"({"center": )" + vector_text(part.center);
+                   if (part.shape) return own + ", \"shape\": " + matrix_text(*part.shape) + "}";
+                   return own + (part.rank > 0 ? ", \"factor\": " + matrix_text(part.factor) : "") + "}";
+                 }) +
+         "}";
+}
+
 }  // namespace
 
 std::string text_of(double x) { return digits_of(x == 0 ? 0.0 : x); }
@@ -75,6 +88,9 @@ std::string text_of(const Solid& solid) {
     case Solid::Kind::rounds:
       if (solid.rounds.size() == 1) return quadric_text(solid.rounds.front());
       return R"({"kind": "union", "pieces": )" + list_of(solid.rounds, quadric_text) + "}";
+    case Solid::Kind::convexes:
+      if (solid.convexes.size() == 1) return convex_text(solid.convexes.front());
+      return R"({"kind": "union", "pieces": )" + list_of(solid.convexes, convex_text) + "}";
     case Solid::Kind::hull:
       return points_text("hull", solid.points) + "}";
     case Solid::Kind::mesh:
@@ -93,6 +109,13 @@ std::string text_of(const Solid& solid) {
     case Solid::Kind::hulls:
       return R"({"kind": "union", "pieces": )" +
              list_of(solid.pieces, [&](const auto& piece) { return hull_text(solid, piece); }) + "}";
+    case Solid::Kind::wall:
+      return R"({"kind": "wall", "outline": )" +
+             list_of(solid.ring->outline,
+                     [](const Eigen::Vector2d& v) {
+                       return "[" + text_of(v.x()) + ", " + text_of(v.y()) + "]";
+                     }) +
+             ", \"extent\": " + text_of(solid.ring->extent) + "}";
   }
   return {};
 }

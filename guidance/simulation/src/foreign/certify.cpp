@@ -9,6 +9,7 @@
 #include <vericone/simulation/trajectory.h>
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <string>
 #include <utility>
 
@@ -262,31 +263,37 @@ RunCertificates certificates(const std::vector<TrackedBody>& bodies, const Certi
       throw InputError("certified", "a pair of bodies that are not there",
                        "what certify() says of these bodies");
   }
-  // What a run is to its certificates: bodies, tracks, proofs.
+  // What a run is to its certificates: bodies, tracks, proofs. Of pairs that come too near, the tracks
+  // themselves: what radii and the required distance allow together is the distance that they come to.
   Scenario scenario;
   scenario.name = "tracks";
   scenario.proof.padding = 0;
-  Run run;
-  std::vector<double> radii;
+  Run run, itself;
+  std::vector<double> radii, fits;
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     Body body;
     body.name = bodies[i].name;
     body.shape = bodies[i].shape;
     scenario.bodies.push_back(std::move(body));
     run.tracks.push_back(certified.tracks[i].track);
-    radii.push_back(bodies[i].radius + slack(bodies[i], certified.tracks[i]));
+    fits.push_back(slack(bodies[i], certified.tracks[i]));
+    radii.push_back(bodies[i].radius + fits.back());
   }
+  itself.tracks = run.tracks;
   std::vector<WithoutCertificate> none;
   for (const PairOnTracks& pair : certified.pairs) {
+    PairOutcome outcome{pair.a, pair.b, {}, options.required};
     const bool contact = pair.verdict == TrackVerdict::contact;
-    if (pair.verdict != TrackVerdict::apart && !contact) {
-      none.push_back({bodies[pair.a].name + ", " + bodies[pair.b].name,
-                      pair.verdict == TrackVerdict::nearer
-                          ? "nearer than required, or in contact, within the radii"
-                          : "undecided"});
+    if (pair.verdict == TrackVerdict::nearer && pair.stated) {
+      outcome.proof = *pair.stated;
+      outcome.required += bodies[pair.a].radius + bodies[pair.b].radius;
+      itself.proofs.push_back(outcome);
       continue;
     }
-    PairOutcome outcome{pair.a, pair.b, {}, options.required};
+    if (pair.verdict != TrackVerdict::apart && !contact) {
+      none.push_back({bodies[pair.a].name + ", " + bodies[pair.b].name, "undecided"});
+      continue;
+    }
     outcome.proof.verdict = contact ? ProofVerdict::touched : ProofVerdict::avoided;
     outcome.proof.from = pair.from;
     outcome.proof.to = pair.to;
@@ -295,6 +302,9 @@ RunCertificates certificates(const std::vector<TrackedBody>& bodies, const Certi
   }
   const auto goes_on = [&](double share) { return !options.goes_on || options.goes_on(share); };
   RunCertificates made = certificates_within(scenario, run, radii, goes_on);
+  RunCertificates near = certificates_within(scenario, itself, fits, goes_on);
+  std::move(near.made.begin(), near.made.end(), std::back_inserter(made.made));
+  made.none.insert(made.none.end(), near.none.begin(), near.none.end());
   made.none.insert(made.none.end(), none.begin(), none.end());
   return made;
 }

@@ -13,7 +13,7 @@ using Eigen::Vector3d;
 
 /// Points of the set whose hull holds the present point, and its weights.
 struct Corral {
-  std::vector<Vector3d> points;
+  std::vector<Vector3d> points, directions;
   std::vector<double> weights;
 
   Vector3d sum() const {
@@ -49,6 +49,7 @@ struct Corral {
         if (weights[i] < weights[least]) least = i;
       if (points.size() == 1) return;
       points.erase(points.begin() + static_cast<std::ptrdiff_t>(least));
+      directions.erase(directions.begin() + static_cast<std::ptrdiff_t>(least));
       weights.erase(weights.begin() + static_cast<std::ptrdiff_t>(least));
       double total = 0;
       for (double& w : weights) total += (w = std::max(w, 0.0));
@@ -59,27 +60,35 @@ struct Corral {
 
 }  // namespace
 
-Vector3d least_point(const std::function<Vector3d(const Vector3d&)>& farthest, const Vector3d& start) {
+Vector3d least_point(const std::function<Vector3d(const Vector3d&)>& farthest, const Vector3d& start,
+                     std::vector<MeanPart>* made_of) {
   constexpr int kMostSteps = 200;
   constexpr double kPrecision = 1e-10;
-  Corral corral{{farthest(-start)}, {1.0}};
+  Corral corral{{farthest(-start)}, {-start}, {1.0}};
+  const auto told = [&](const Vector3d& x) {
+    if (made_of) made_of->clear();
+    for (std::size_t i = 0; made_of && i < corral.points.size(); ++i)
+      made_of->push_back({corral.directions[i], corral.weights[i]});
+    return x;
+  };
   Vector3d x = corral.points.front();
   double size = x.norm();
   for (int step = 0; step < kMostSteps; ++step) {
     const double norm = x.norm();
-    if (!(norm > 1e-13 * size)) return Vector3d::Zero();
+    if (!(norm > 1e-13 * size)) return told(Vector3d::Zero());
     const Vector3d next = farthest(-x / norm);
     size = std::max(size, next.norm());
     if (norm - next.dot(x) / norm <= kPrecision * norm + 1e-15 * size) break;
-    if (corral.points.size() == 4) return Vector3d::Zero();  // a simplex around the origin
+    if (corral.points.size() == 4) return told(Vector3d::Zero());  // a simplex around the origin
     corral.points.push_back(next);
+    corral.directions.emplace_back(-x / norm);
     corral.weights.push_back(0);
     corral.descend();
     const Vector3d moved = corral.sum();
     if (!(moved.norm() < norm)) break;
     x = moved;
   }
-  return x;
+  return told(x);
 }
 
 }  // namespace vericone::simulation
