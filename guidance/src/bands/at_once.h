@@ -139,13 +139,33 @@ class OfAltitude : public Question {
   OfAltitude(const Part& part, const Vector3d& level, const Horizon& horizon, double margin)
       : part_(part), level_(level), horizon_(horizon), margin_(margin) {}
 
-  // The plane of the pair at q is one of the pair here, moved.
   std::optional<Range> free_about(double q) const override {
     const Vector3d w = level_ - part_.velocity, here(0, 0, q);
     const auto found = part_.swollen().normal_along(here + horizon_.from * w, here + farthest() * w);
-    if (!found) return std::nullopt;
+    if (const auto range = found ? freed_by(*found, q) : std::nullopt; range || margin_ == 0) return range;
+    // Where the swollen body is less than the margin, the plane where they are nearest leaves more. Where
+    // they pass it is along w, to rounding of a search.
+    const Pair there = higher(q, part_.pair);
+    if (there.verdict(level_, part_.velocity, horizon_) != Verdict::out) return std::nullopt;
+    const Miss nearest = nearest_within(there, level_, part_.velocity, horizon_);
+    if (!(nearest.least > margin_)) return std::nullopt;
+    Vector3d n = nearest.normal;
+    if (std::abs(n.dot(w)) < 1e-3 * n.norm() * w.norm()) n -= n.dot(w) / w.squaredNorm() * w;
+    const auto range = freed_by(n, q);
+    return range ? range : Range{q, q};  // of itself, at least
+  }
+  bool is_hit(double q) const override {
+    if (meets(higher(q, part_.swollen()).verdict(level_, part_.velocity, horizon_))) return true;
+    return margin_ > 0 &&
+           nearest_within(higher(q, part_.pair), level_, part_.velocity, horizon_).most < margin_;
+  }
+  bool all_hit(double, double) const override { return true; }
+
+ private:
+  /// The plane of the pair at q is one of the pair here, moved.
+  std::optional<Range> freed_by(Vector3d n, double q) const {
+    const Vector3d w = level_ - part_.velocity;
     // Where they pass, n.w is 0 to rounding; for ever it has to be less.
-    Vector3d n = *found;
     if (std::isinf(horizon_.until) && !w.isZero(0))
       n -= (std::max(n.dot(w), 0.0) + kRoundings * n.norm() * w.norm()) / w.squaredNorm() * w;
     const double room = part_.pair.gap(n) - margin_ * n.norm() * (1 + 0x1p-48), along = n.dot(w);
@@ -154,18 +174,11 @@ class OfAltitude : public Question {
         std::abs(room) + time * n.cwiseAbs().dot(level_.cwiseAbs() + part_.velocity.cwiseAbs());
     return below(q, n.z(), room - reached - kRoundings * (std::isfinite(size) ? size : std::abs(room)));
   }
-  bool is_hit(double q) const override {
-    const auto higher = [q](const Pair& pair) {
-      Placed moved = pair.agent();
-      moved.pose.position.z() += q;
-      return Pair(moved, pair.obstacle());
-    };
-    if (meets(higher(part_.swollen()).verdict(level_, part_.velocity, horizon_))) return true;
-    return margin_ > 0 && nearest_within(higher(part_.pair), level_, part_.velocity, horizon_).most < margin_;
+  static Pair higher(double q, const Pair& pair) {
+    Placed moved = pair.agent();
+    moved.pose.position.z() += q;
+    return {moved, pair.obstacle()};
   }
-  bool all_hit(double, double) const override { return true; }
-
- private:
   /// A time after which they have passed, where the horizon has no end.
   double farthest() const {
     const double speed = (level_ - part_.velocity).norm();

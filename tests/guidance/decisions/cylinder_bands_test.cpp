@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // Bands of cylinders with vertical axes, as well clear volumes are: their ends against closed forms, a disc
-// in plan times an interval in altitude; needles.
+// in plan times an interval in altitude; needles. And of boxes, whose margins are round.
 #include <vericone/guidance/bands.h>
 
 #include <gtest/gtest.h>
@@ -11,6 +11,7 @@
 #include <cmath>
 #include <iostream>
 #include <numbers>
+#include <tuple>
 
 #include "support/campaign.h"
 
@@ -230,6 +231,35 @@ TEST(BandsOfCylinders, EndWhereTheClosedFormSays) {
             << " of the range; of " << some[0] << ", " << some[1] << ", " << some[2] << ", " << some[3]
             << "\n";
   for (const int n : some) EXPECT_GT(n, share(2000) / 10);
+}
+
+/// Boxes that pass beside each other by g: then the rest of the margin is in height.
+TEST(BandsOfBoxes, OfAltitudesKeepTheMarginFromEdges) {
+  constexpr double kMargin = 2, kMost = 10;
+  for (const double turned : {0.0, 0.3})
+    for (const double g : {-0.5, 0.1, 0.4, 1.0, 1.6, 1.99}) {
+      SCOPED_TRACE("beside by " + std::to_string(g) + ", turned " + std::to_string(turned));
+      const Eigen::Matrix3d turn = Eigen::AngleAxisd(turned, Vector3d::UnitZ()).toRotationMatrix();
+      const Intruder other{
+          Placed(HullBody::box({-2, -1, -0.5}, {2, 1, 0.5}), Pose{turn * Vector3d(30, 2 + g, 1), turn}),
+          turn * Vector3d(-1, 0, 0)};
+      const Placed agent(HullBody::box({-1, -1, -1}, {1, 1, 1}), Pose{Vector3d::Zero(), turn});
+      const Bands found = bands(agent, turn * Vector3d(4, 0, 0), {&other, 1},
+                                {.horizon = {0, 12}, .margin = kMargin, .altitude = {-kMost, kMost}});
+      const double beside = std::max(g, 0.0), high = 1.5 + std::sqrt(kMargin * kMargin - beside * beside);
+      const Band& band = found.altitude;
+      ASSERT_EQ(band.conflict.size(), 1U);
+      ASSERT_EQ(band.free.size(), 2U);
+      EXPECT_EQ(band.free[0].from, -kMost);
+      EXPECT_EQ(band.free[1].to, kMost);
+      for (const auto& [free, conflict, truth] :
+           {std::tuple{band.free[0].to, band.conflict[0].from, 1 - high},
+            {-band.free[1].from, -band.conflict[0].to, -1 - high}}) {
+        EXPECT_LE(free, truth + 1e-12);
+        EXPECT_GE(conflict, truth - 1e-12);
+        EXPECT_LT(conflict - free, 1e-4 * kMost);
+      }
+    }
 }
 
 TEST(BandsOfCylinders, LoseNoNeedle) {
