@@ -20,6 +20,16 @@ std::uint64_t Random::next() {
   return z;
 }
 
+void Random::fill(std::uint64_t seed, std::uint64_t first, std::uint64_t number, std::span<double> u) {
+  constexpr std::uint64_t kStep = 0x9e3779b97f4a7c15;
+  // Without its index, and without the step that the constructor ends with.
+  const std::uint64_t mask = seed * kStep + 0x2545f4914f6cdd1d + kStep, begin = detail::mixed(mask - kStep);
+  for (std::size_t i = 0; i < u.size(); ++i) {
+    const std::uint64_t state = (mask ^ (begin + first + i)) + (number + 1) * kStep;
+    u[i] = (static_cast<double>(detail::mixed(state) >> 12) + 0.5) * 0x1p-52;
+  }
+}
+
 double Random::uniform() { return static_cast<double>(next() >> 11) * 0x1p-53; }
 
 Eigen::Vector3d Random::direction() {

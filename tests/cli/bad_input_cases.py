@@ -732,6 +732,41 @@ COMMANDS += [
     ("a scan for a scene", ["check", "FILE.off"], "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n"),
     ("a body for a scenario", ["trials", "FILE"], "{center: [0, 0, 0], semi_axes: [1, 2, 3]}\n"),
 ]
+
+
+def population(drawn="{obstacle: {y: {normal: [0, 1]}}}", more=""):
+    return ("agent: {center: [0, 0, 0], semi_axes: [1, 1, 1]}\nobstacle: {center: [9, 0, 0], semi_axes: [1, 1, 1]}\n"
+            "agent_velocity: [1, 0, 0]\ndrawn: %s\n%s" % (drawn, more))
+
+
+COMMANDS += [(what, ["campaign", "--verdicts", "FILE", *more], text) for what, text, *more in (
+    ("a scene for a population", SCENE),
+    ("nothing drawn", population("{agent: {}}")),
+    ("a quantity that no body has", population("{agent: {mass: {uniform: [1, 2]}}}")),
+    ("two distributions of one number", population("{agent: {x: {uniform: [1, 2], normal: [0, 1]}}}")),
+    ("a uniform distribution upside down", population("{agent: {x: {uniform: [2, 1]}}}")),
+    ("a deviation of zero", population("{agent: {x: {normal: [2, 0]}}}")),
+    ("a speed that may be negative", population("{agent: {speed: {normal: [10, 3]}}}")),
+    ("a semi-axis that may be zero", population("{agent: {a: {uniform: [0, 3]}}}")),
+    ("semi-axes of a body without", population("{obstacle: {a: {uniform: [1, 3]}}}").replace(
+        "obstacle: {center: [9, 0, 0], semi_axes: [1, 1, 1]}", "obstacle: {center: [9, 0, 0], cylinder: {radius: 1, height: 2}}")),
+    ("a negative concentration", population("{agent: {course: {von_mises: [0, -1]}}}")),
+    ("an elevation beyond the zenith", population("{agent: {climb: {elevation: [0, 2]}}}")),
+    ("a speed in metres", population("{agent: {vx: {normal: [0, 3 m]}}}")),
+    ("edges as many as weights", population("{agent: {x: {table: {edges: [0, 1], weights: [1, 2]}}}}")),
+    ("edges that go back", population("{agent: {x: {table: {edges: [0, 2, 1], weights: [1, 2]}}}}")),
+    ("weights of zero", population("{agent: {x: {table: {edges: [0, 1], weights: [0]}}}}")),
+    ("a speed beside components", population("{agent: {speed: {uniform: [1, 2]}, vx: {uniform: [1, 2]}}}")),
+    ("a proposal for what is not drawn", population(more="proposal: {agent: {x: {normal: [0, 1]}}}\n")),
+    ("no nominal share", population(more="nominal_share: 0\n")),
+    ("correlated with what is not drawn", population(more="correlated: [{of: [obstacle.y, obstacle.x], correlations: [[1, 0], [0, 1]]}]\n")),
+    ("a correlation of one", population("{obstacle: {y: {normal: [0, 1]}, z: {normal: [0, 1]}}}",
+                                        "correlated: [{of: [obstacle.y, obstacle.z], correlations: [[1, 1], [1, 1]]}]\n")),
+    ("many velocities of one place", population("{agent: {vy: {normal: [0, 1]}}}", "velocities: 10\n")),
+    ("many velocities beside a proposal", population(more="velocities: 10\nproposal: {obstacle: {y: {normal: [0, 2]}}}\n")),
+    ("a law of verdicts", population(), "--laws", "slice"),
+    ("no verdicts", population(), "-N", "0"),
+)]
 QUERIES.insert(1, ("a misspelt kind of body", case(obstacle={"shape": ..., "meshes": "a.obj"})))
 
 CAMPAIGNS = [

@@ -114,7 +114,7 @@ class Schemas(unittest.TestCase):
         for pattern, name in (("docs/examples/*.yaml", "scene"), ("docs/examples/scenarios/*.yaml", "scenario"),
                               ("papers/*/scenarios/*.yaml", "scenario"), ("papers/*/claims.yaml", "claims"),
                               ("papers/*/figures.yaml", "figures"), ("papers/*/scenes/*.yaml", "scene"), ("docs/examples/bodies/*.yaml", "body"),
-                              ("docs/examples/pursuits/*.yaml", "pursuit"), ("docs/examples/tracks/*.yaml", "tracks"), ("papers/*/pursuits/*.yaml", "pursuit")):
+                              ("docs/examples/pursuits/*.yaml", "pursuit"), ("docs/examples/tracks/*.yaml", "tracks"), ("docs/examples/populations/*.yaml", "population"), ("papers/*/pursuits/*.yaml", "pursuit")):
             validator = Validator(name)
             for path in glob.glob(os.path.join(SOURCE, pattern)):
                 with open(path, encoding="utf-8") as file:

@@ -17,7 +17,7 @@ import sys
 from pages import ROOT, text_of
 
 PAGES = ("docs/reference/formats.md", "docs/reference/pursuits.md", "docs/reference/scenarios.md")
-KINDS = ("body", "claims", "figures", "pursuit", "scan", "scenario", "scene", "tracks")
+KINDS = ("body", "claims", "figures", "population", "pursuit", "scan", "scenario", "scene", "tracks")
 MARK = re.compile(r"^<!-- fields: (\w+)(?: (\w+))?(?:: ([\w ]+))? -->$")
 TYPES = {"string": "text", "boolean": "true or false", "integer": "whole number", "number": "number", "object": "object",
          "array": "list"}

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "campaign/summary_text.h"
+#include "campaign/verdict_campaign.h"
 #include "command/default_seed.h"
 #include "command/output_line.h"
 #include "commands.h"
@@ -40,6 +41,7 @@ struct CampaignOptions : OutputOptions {
   double reference = 0.05;  // w
   double required = 1;      // m
   double step = 0.05;       // s
+  std::string verdicts;     // a population's file: nothing flies
 };
 
 Campaign campaign_of(const CampaignOptions& o) {
@@ -97,20 +99,31 @@ int campaign_command(CommandLine& line) {
   line.option("-N,--engagements", campaign.engagements, "Random engagements");
   line.option("--seed", campaign.seed, "Seed of all random numbers");
   line.option("--threads", campaign.threads, "Threads, 0: one per processor");
-  line.option("--laws", campaign.laws,
-              "slice, exact (largest opening), motion (true sector on the plane of motion), clearance")
-      .commas();
-  line.option("--most", campaign.most, "Saturation, m/s^2; every law also flies without");
-  line.option("--gain", campaign.gain, "K of all laws, 1/s");
-  line.option("--reference", campaign.reference, "w, to which y is driven");
-  line.option("--required", campaign.required, "Of the clearance law, metres");
-  line.option("--step", campaign.step, "Between two commands, s");
+  line.option(
+      "--verdicts", campaign.verdicts,
+      "Nothing flies: verdicts of encounters drawn from this file (docs/reference/formats.md, Populations)");
+  const std::pair<const char*, CommandLine::Option> of_flights[] = {
+      {"--laws", line.option("--laws", campaign.laws,
+                             "slice, exact (largest opening), motion (true sector on the plane of motion), "
+                             "clearance")
+                     .commas()},
+      {"--most", line.option("--most", campaign.most, "Saturation, m/s^2; every law also flies without")},
+      {"--gain", line.option("--gain", campaign.gain, "K of all laws, 1/s")},
+      {"--reference", line.option("--reference", campaign.reference, "w, to which y is driven")},
+      {"--required", line.option("--required", campaign.required, "Of the clearance law, metres")},
+      {"--step", line.option("--step", campaign.step, "Between two commands, s")}};
   part_option(line, campaign.part);
   line.negative_flag("--no-figures", campaign.figures, "Tables only");
   line.flag("--quiet", campaign.quiet, "No progress");
   line.flag("--json", campaign.json, "Print JSON");
   line.read();
   keep_words(line, campaign);
+  if (!campaign.verdicts.empty()) {
+    for (const auto& [name, option] : of_flights)
+      if (option.given()) throw InputError(name, "given", "left out beside --verdicts: nothing flies");
+    return populations::run_verdict_campaign(campaign.verdicts, campaign.engagements, campaign.seed, campaign,
+                                             std::cout);
+  }
   return montecarlo::run_campaign(campaign, std::cout);
 }
 

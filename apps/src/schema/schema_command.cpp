@@ -6,6 +6,7 @@
 #include "json/json_value.h"
 #include "output/schemas.h"
 #include "paper/paper_fields.h"
+#include "scenarios/populations/read_population.h"
 #include "scenarios/schema.h"
 #include "scenarios/tracks_json.h"
 
@@ -21,7 +22,8 @@ void print(const Json& schema) { std::cout << input::schema_text(schema); }
 /// `vericone schema`: what an editor needs to complete and check a file (docs/schemas has its output).
 int schema_command(CommandLine& line) {
   std::string kind;
-  line.option("kind", kind, "One of body, scene, scenario, tracks, claims, figures, scan, pursuit")
+  line.option("kind", kind,
+              "One of body, scene, scenario, tracks, claims, figures, scan, pursuit, population")
       .required();
   line.quiet();
   line.read();
@@ -31,6 +33,7 @@ int schema_command(CommandLine& line) {
                         {"tracks", [] { print(scenario::tracks_schema()); }},
                         {"claims", [] { print(paper::claims_schema()); }},
                         {"figures", [] { print(paper::figures_schema()); }},
+                        {"population", [] { print(populations::population_schema()); }},
                         {"scan", [] { hand_over("scan", "schema", {}, "kind"); }},
                         {"pursuit", [] { hand_over("pursue", "schema", {}, "kind"); }}})
       .read(kind, "kind")();

@@ -28,6 +28,7 @@
 #include "output/progress.h"
 #include "output/results.h"
 #include "scenarios/read_scenario.h"
+#include "trials/encounter_trials.h"
 #include "work/file_hash.h"
 #include "work/interrupt.h"
 #include "work/provenance.h"
@@ -43,10 +44,13 @@ struct TrialsOptions : OutputOptions {
   TrialsOptions() { out = "out/trials"; }
   std::string scenario;
   std::uint64_t trials = 1000;
+  bool trials_given = false;
   std::vector<std::string> levels, laws;  // none: as complete() says
   std::optional<std::uint64_t> seed;      // otherwise the scenario's
   std::optional<std::uint64_t> trial;     // this one alone: nothing is written
-  bool random = false;  // another random engagement each trial in place of the scenario's bodies
+  bool random = false;     // another random engagement each trial in place of the scenario's bodies
+  std::string encounters;  // a file of them, flown in place of the scenario's
+  std::vector<std::string> volumes{"500 ft:100 ft"};  // around agents, entered or not
 };
 
 /// A law at a level: one group of columns.
@@ -54,6 +58,8 @@ struct Cell {
   TrialLevel level;
   TrialLaw law;
   Scenario scenario;
+  bool equipped = true;  // otherwise no pilot flies
+  std::string name = {};
 };
 
 /// What is flown where no options say it: the source's laws and levels where they have one pilot to change,
@@ -74,6 +80,9 @@ TrialsOptions complete(TrialsOptions options, const Scenario& scenario) {
   return options;
 }
 
+/// As tables and summaries have it.
+const char* law_of(const Cell& cell) { return cell.equipped ? to_string(cell.law) : "none"; }
+
 std::vector<Cell> cells_of(const TrialsOptions& o, Scenario scenario) {
   if (o.seed) scenario.seed = *o.seed;
   const auto once = [](const std::vector<std::string>& words, const char* option) {
@@ -85,8 +94,9 @@ std::vector<Cell> cells_of(const TrialsOptions& o, Scenario scenario) {
   std::vector<Cell> cells;
   for (const std::string& level : o.levels)
     for (const std::string& law : o.laws) {
-      Cell& cell = cells.emplace_back(Cell{trial_level(level), trial_law(law), {}});
+      Cell& cell = cells.emplace_back(Cell{trial_level(level), trial_law(law), {}, true, {}});
       cell.scenario = trial_scenario(scenario, cell.law, cell.level);
+      cell.name = cell.level.name + " " + to_string(cell.law);
     }
   if (o.random) {
     const bool two = scenario.bodies.size() == 2 && !planar(scenario.bodies[0].shape);
@@ -120,6 +130,41 @@ bool noisy(const std::vector<Cell>& cells) {
   });
 }
 
+/// Says how many trials there are, and adds the cell without any law before the others. Throws InputError
+/// naming the option.
+std::optional<Encounters> encounters_of(TrialsOptions& o, const Scenario& scenario,
+                                        std::vector<Cell>& cells) {
+  if (o.encounters.empty()) return std::nullopt;
+  if (o.random) throw InputError("--random", "given", "left out beside --encounters");
+  if (o.trial) throw InputError("--trial", std::to_string(*o.trial), "left out beside --encounters");
+  Encounters with{encounters::read_encounters(o.encounters, cells[0].scenario), {}, o.encounters};
+  for (const std::string& volume : o.volumes)
+    with.volumes.push_back(encounters::volume_of(volume, "--volumes"));
+  if (with.volumes.empty())
+    throw InputError("--volumes", "nothing", "one volume or more, such as 500 ft:100 ft");
+  if (std::none_of(scenario.bodies.begin(), scenario.bodies.end(),
+                   [](const auto& b) { return b.pilot.has_value(); }))
+    throw InputError("bodies", "no pilot", "one body or more with a pilot, beside --encounters");
+  if (!scenario.orifices.empty()) throw InputError("orifices", "given", "left out beside --encounters");
+  if (with.set.count > 0) {
+    if (o.trials_given && o.trials > with.set.count)
+      throw InputError("--trials", std::to_string(o.trials),
+                       "at most the file's " + std::to_string(with.set.count));
+    if (!o.trials_given) o.trials = with.set.count;
+  }
+  Cell none = cells[0];
+  none.equipped = false;
+  none.name = "none";
+  cells.insert(cells.begin(), none);
+  return with;
+}
+
+std::vector<bool> agents_of(const Scenario& scenario) {
+  std::vector<bool> agents;
+  for (const simulation::Body& body : scenario.bodies) agents.push_back(body.pilot.has_value());
+  return agents;
+}
+
 TrialOutcome fly(const Cell& cell, std::uint64_t trial, bool random) {
   return fly_trial(random ? with_random_bodies(cell.scenario, trial) : cell.scenario, trial);
 }
@@ -130,22 +175,37 @@ std::string word_of(const TrialOutcome& outcome) {
   return missed ? to_string(PassageVerdict::missed) : to_string(outcome.verdict);
 }
 
-std::string header_of(const std::vector<Cell>& cells) {
-  std::string header = "trial";
+std::string header_of(const std::vector<Cell>& cells, const std::optional<Encounters>& with) {
+  std::string header = with ? "trial,weight" : "trial";
   for (const Cell& cell : cells) {
-    const std::string name = cell.level.name + " " + to_string(cell.law);
-    header += "," + name + "," + name + " least distance [m]," + name + " effort [m/s]";
+    header += "," + cell.name + "," + cell.name + " least distance [m]," + cell.name + " effort [m/s]";
+    if (with) header += encounter_columns(cell.name, *with);
   }
   return header;
 }
 
+std::string cells_of(const TrialOutcome& o) {
+  const bool avoided = o.verdict == ProofVerdict::avoided;
+  return "," + word_of(o) + "," + (avoided ? to_text(o.least_distance) : "") + "," + to_text(o.effort);
+}
+
+std::string encounter_row(const std::vector<Cell>& cells, std::uint64_t trial, const Encounters& with) {
+  const encounters::FlownEncounter encounter = with.set.at(trial);
+  std::string row = std::to_string(trial) + "," + to_text(encounter.weight);
+  RunOptions options;
+  options.log = false;
+  options.trial = trial;
+  for (const Cell& cell : cells) {
+    const Scenario flown = on_encounter(cell.scenario, encounter, cell.equipped);
+    const Run run = simulate(flown, options);
+    row += cells_of(outcome_of(flown, run)) + encounter_cells(flown, run, agents_of(cell.scenario), with);
+  }
+  return row;
+}
+
 std::string row_of(const std::vector<Cell>& cells, std::uint64_t trial, bool random) {
   std::string row = std::to_string(trial);
-  for (const Cell& cell : cells) {
-    const TrialOutcome o = fly(cell, trial, random);
-    const bool avoided = o.verdict == ProofVerdict::avoided;
-    row += "," + word_of(o) + "," + (avoided ? to_text(o.least_distance) : "") + "," + to_text(o.effort);
-  }
+  for (const Cell& cell : cells) row += cells_of(fly(cell, trial, random));
   return row;
 }
 
@@ -159,14 +219,14 @@ struct Found {
   std::optional<double> least_distance;  // m, the mean over those avoided
 };
 
-std::vector<Found> read_rows(const fs::path& file, const std::vector<Cell>& cells) {
-  const simulation::Table rows = simulation::table_of_csv(content_of(file), file.filename().string());
+std::vector<Found> found_of(const simulation::Table& rows, const std::vector<Cell>& cells, std::size_t each,
+                            std::size_t before) {
   const std::size_t trials = rows.rows();
   std::vector<Found> all;
   for (std::size_t k = 0; k < cells.size(); ++k) {
-    const std::vector<std::string>& words = rows.columns[3 * k + 1].words;
-    const std::vector<double>&distances = rows.columns[3 * k + 2].numbers,
-          &efforts = rows.columns[3 * k + 3].numbers;
+    const std::vector<std::string>& words = rows.columns[before + each * k].words;
+    const std::vector<double>&distances = rows.columns[before + each * k + 1].numbers,
+          &efforts = rows.columns[before + each * k + 2].numbers;
     Found& found =
         all.emplace_back(Found{&cells[k], std::make_unique<bool[]>(trials), {}, 0, 0, 0, 0, 0, {}});
     double distance = 0;
@@ -191,7 +251,7 @@ Json to_json(const std::vector<Found>& all, std::uint64_t trials) {
   for (auto found = all.begin(); found != all.end(); ++found) {
     const Cell& cell = *found->cell;
     shares.push_back({{"level", cell.level.name},
-                      {"law", to_string(cell.law)},
+                      {"law", law_of(cell)},
                       {"share", found->share.share},
                       {"low", found->share.low},
                       {"high", found->share.high},
@@ -204,8 +264,8 @@ Json to_json(const std::vector<Found>& all, std::uint64_t trials) {
     for (auto other = found + 1; other != all.end() && other->cell->level.name == cell.level.name; ++other) {
       const Paired p = paired({found->proved.get(), trials}, {other->proved.get(), trials});
       pairs.push_back({{"level", cell.level.name},
-                       {"first", to_string(cell.law)},
-                       {"second", to_string(other->cell->law)},
+                       {"first", law_of(cell)},
+                       {"second", law_of(*other->cell)},
                        {"first_alone", p.first_alone},
                        {"second_alone", p.second_alone},
                        {"chance", p.chance}});
@@ -221,7 +281,7 @@ void print(const std::vector<Found>& all, std::uint64_t trials, std::ostream& ou
       << "                                                                              m/s\n";
   for (const Found& found : all) {
     std::snprintf(line, sizeof line, "  %-11s %-12s %7.1f %%  %5.1f to %5.1f %% %10llu %10llu  %7.3g\n",
-                  found.cell->level.name.c_str(), to_string(found.cell->law), 100 * found.share.share,
+                  found.cell->level.name.c_str(), law_of(*found.cell), 100 * found.share.share,
                   100 * found.share.low, 100 * found.share.high,
                   static_cast<unsigned long long>(found.touched),
                   static_cast<unsigned long long>(found.undecided), found.effort);
@@ -269,8 +329,9 @@ int run_trials(const TrialsOptions& given, std::ostream& out) {
   if (given.trials < 1 || given.trials > 10'000'000)
     throw InputError("--trials", std::to_string(given.trials), "between 1 and 10000000");
   const Scenario scenario = scenario::read_scenario(given.scenario);
-  const TrialsOptions options = complete(given, scenario);
-  const std::vector<Cell> cells = cells_of(options, scenario);
+  TrialsOptions options = complete(given, scenario);
+  std::vector<Cell> cells = cells_of(options, scenario);
+  const std::optional<Encounters> with = encounters_of(options, scenario, cells);
   if (options.trial && !options.part.empty())
     throw InputError("--part", options.part, "left out with --trial");
   if (options.trial) return print_one(options, cells, out);
@@ -281,16 +342,25 @@ int run_trials(const TrialsOptions& given, std::ostream& out) {
                    sha256_of_file(options.scenario) + ", seed " + std::to_string(cells[0].scenario.seed) +
                    ", " + std::to_string(options.trials) + " trials, levels " + joined(options.levels) +
                    ", laws " + joined(options.laws) + (options.random ? ", random engagements" : "");
-  table.header = header_of(cells);
+  if (with)
+    table.settings += ", encounters " + fs::path(options.encounters).filename().string() + " " +
+                      sha256_of_file(options.encounters) + ", volumes " + joined(options.volumes);
+  table.header = header_of(cells, with);
   table.count = options.trials;
   table.threads = threads_for(options.threads);
   table.block = 10;
-  table.row = [&](std::uint64_t i) { return row_of(cells, i, options.random); };
+  table.row = [&](std::uint64_t i) {
+    return with ? encounter_row(cells, i, *with) : row_of(cells, i, options.random);
+  };
   if (!run_with_bar(table, folder, "trials", options, out)) return kExitInterrupted;
-  Json origin = provenance(options.command_line, table.threads, {options.scenario});
+  std::vector<fs::path> inputs{options.scenario};
+  if (with) inputs.emplace_back(options.encounters);
+  Json origin = provenance(options.command_line, table.threads, inputs);
   origin["seconds"] = seconds_since(start);
   if (!options.part.empty()) return publish_part(options, folder, {table}, std::move(origin), out);
-  const std::vector<Found> found = read_rows(folder.resumable(table.name), cells);
+  const fs::path file = folder.resumable(table.name);
+  const simulation::Table rows = simulation::table_of_csv(content_of(file), file.filename().string());
+  const std::vector<Found> found = found_of(rows, cells, with ? 6 + with->volumes.size() : 3, with ? 2 : 1);
   Results results{.summary = to_json(found, options.trials),
                   .origin = std::move(origin),
                   .scripts = {"trials.py"},
@@ -301,7 +371,12 @@ int run_trials(const TrialsOptions& given, std::ostream& out) {
   results.summary["settings"] = table.settings;
   std::ostringstream text;
   print(found, options.trials, text);
-  if (!noisy(cells)) text << "no pilot has a sensor: all trials are the same flight\n";
+  if (with) {
+    std::vector<std::string> names;
+    for (const Cell& cell : cells) names.push_back(cell.name);
+    print_encounters(results.summary["encounters"] = encounters_json(rows, names, *with), text);
+  }
+  if (!noisy(cells) && !with) text << "no pilot has a sensor: all trials are the same flight\n";
   publish(results, options, folder, text.str(), out);
   return 0;
 }
@@ -315,7 +390,9 @@ namespace vericone {
 int trials_command(CommandLine& line) {
   trials::TrialsOptions trials;
   line.option("scenario", trials.scenario, "Scenario file, YAML").required();
-  line.option("-N,--trials", trials.trials, "Trials of every law at every level");
+  const auto count =
+      line.option("-N,--trials", trials.trials,
+                  "Trials of every law at every level; of a table of encounters all if left out");
   line.option(
           "--levels", trials.levels,
           "Noise: percent of position and of velocity, 7.5:15, or the scenario's sensors times a number, x4")
@@ -331,6 +408,13 @@ int trials_command(CommandLine& line) {
   line.option("--trial", trials.trial, "This trial alone, printed");
   line.flag("--random", trials.random,
             "Another random engagement each trial, in place of the scenario's bodies");
+  line.option(
+      "--encounters", trials.encounters,
+      "Encounters with weights, flown in place of the scenario's by every law and by none: a table, or a "
+      "population (docs/reference/formats.md)");
+  line.option("--volumes", trials.volumes,
+              "Near misses: radius:half-height of upright cylinders about agents that no other is to enter")
+      .commas();
   part_option(line, trials.part);
   line.option("--out", trials.out, "Folder for tables and picture");
   line.option("--threads", trials.threads, "Threads, 0: one per processor");
@@ -338,6 +422,7 @@ int trials_command(CommandLine& line) {
   line.flag("--quiet", trials.quiet, "No progress");
   line.flag("--json", trials.json, "Print JSON");
   line.read();
+  trials.trials_given = count.given();
   keep_words(line, trials);
   return vericone::trials::run_trials(trials, std::cout);
 }

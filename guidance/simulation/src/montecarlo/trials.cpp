@@ -159,7 +159,10 @@ TrialOutcome fly_trial(const Scenario& scenario, std::uint64_t trial) {
   RunOptions options;
   options.log = false;
   options.trial = trial;
-  const Run run = simulate(scenario, options);
+  return outcome_of(scenario, simulate(scenario, options));
+}
+
+TrialOutcome outcome_of(const Scenario& scenario, const Run& run) {
   const auto flies = [&](std::size_t i) { return scenario.bodies[i].pilot.has_value(); };
   const bool any = std::any_of(scenario.bodies.begin(), scenario.bodies.end(),
                                [](const Body& body) { return body.pilot.has_value(); });

@@ -17,4 +17,7 @@ namespace vericone::simulation {
 /// "7.5:15" or "x4". Throws InputError naming "--levels".
 [[nodiscard]] TrialLevel trial_level(const std::string& text);
 
+/// What fly_trial() says of a run.
+[[nodiscard]] TrialOutcome outcome_of(const Scenario& scenario, const Run& run);
+
 }  // namespace vericone::simulation
