@@ -73,7 +73,7 @@ int run_campaign(const CampaignOptions& options, std::ostream& out) {
   const Summary found = summarise_file(folder.resumable(table.name), laws);
   Results results{.summary = to_json(found),
                   .origin = std::move(origin),
-                  .scripts = {"engagement_campaign.py"},
+                  .scripts = {"campaigns/engagement_campaign.py"},
                   .files = {table.name, "summary.csv", "summary.json"},
                   .old = {"campaign.pdf", "campaign.png"}};
   results.summary["settings"] = table.settings;
