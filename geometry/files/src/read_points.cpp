@@ -106,6 +106,10 @@ PointFile finish(const Source& source, Parsed parsed) {
       ++file.dropped_faces;
     }
   }
+  if (file.faces.empty() && file.dropped_points > 0 &&
+      file.dropped_faces > 0)  // no cloud, though it has points
+    source.refuse(std::to_string(file.dropped_faces) + " faces, all with points that are not finite",
+                  "a file with a face of finite points");
   file.unreferenced_points = std::size_t(std::ranges::count(used, 0));
   return file;
 }

@@ -109,6 +109,21 @@ TEST(Gltf, OfTrianglesStandsUpright) {
   EXPECT_NEAR(volume_of(file), 0.1 * 2 / 6, 1e-8);
 }
 
+/// Nodes may place all faces beyond the doubles, but for a corner at the origin.
+TEST(Gltf, WhoseFacesAreNotFiniteIsNoCloud) {
+  Written w;
+  const int at = w.accessor(packed<float>({0, 0, 0, 2, 0, 0, 0, 2, 0}), 5126, "VEC3", 3);
+  w.mesh({{"attributes", {{"POSITION", at}}}});
+  w.root["nodes"].push_back({{"mesh", 0}, {"scale", {1e308, 1e308, 1e308}}});
+  w.root["scenes"].push_back({{"nodes", {0}}});
+  try {
+    static_cast<void>(read("a.glb", w.glb()));
+    ADD_FAILURE() << "a cloud";
+  } catch (const InputError& e) {
+    EXPECT_EQ(e.value(), "1 faces, all with points that are not finite");
+  }
+}
+
 TEST(Gltf, IsTheSameWhereverItsBytesAre) {
   const TemporaryDirectory directory;
   const Written w = tetrahedron();
@@ -225,7 +240,7 @@ TEST(Gltf, IsPlacedByItsNodes) {
       w.root["nodes"].push_back(node);
       whole = whole * local;
     }
-    w.root["scenes"] = {{{"nodes", {0}}}};
+    w.root["scenes"].push_back({{"nodes", {0}}});
     const PointFile file = read("a.glb", w.glb());
     const Vector3d sound[] = {{0, 0, 0}, {0, 2, 0}, {1, 0, 0}, {0, 0, double(0.1F)}};
     const bool mirrors = whole.determinant() < 0;

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Points and faces from mesh and point-cloud files.
+// Points and faces from mesh and point-cloud files; polygons as triangles, convex pieces and bodies.
 #pragma once
 
+#include <vericone/geometry/body.h>
 #include <Eigen/Core>
 #include <array>
 #include <cstddef>
@@ -75,6 +76,29 @@ struct PointFile {
 /// (20,000 corners of a spiral: 0.1 s).
 [[nodiscard]] std::vector<std::array<std::uint32_t, 3>> triangles_of(
     const std::vector<Eigen::Vector3d>& points, const std::vector<Face>& faces);
+
+/// What is inside of an outline and of no hole, the edges included; metres. Corners either way round.
+struct Polygon {
+  std::vector<Eigen::Vector2d> outline;
+  std::vector<std::vector<Eigen::Vector2d>> holes = {};
+};
+
+/// Convex polygons, counter-clockwise, whose union it is, exactly: their corners are its own, and they share
+/// no more than edges. One where it is convex; else triangles (ears, of holes joined to the outline first),
+/// put together along diagonals while they stay convex: at most four times the fewest pieces (S. Hertel,
+/// K. Mehlhorn, "Fast triangulation of simple polygons", 1983). All turns are decided exactly. Throws
+/// InputError naming "outline", "outline[i]", "holes[j]" or "holes[j][i]": fewer than three corners, a corner
+/// that is not finite, edges that meet elsewhere than neighbours at their corner, a hole that is not within
+/// the outline or is within another. Cost: quadratic in the corners (1,000: some milliseconds), with holes at
+/// worst cubic.
+[[nodiscard]] std::vector<std::vector<Eigen::Vector2d>> convex_pieces(const Polygon& polygon);
+
+/// The polygon as a body in space, of prisms between z = -height and height (metres): a hull where it is
+/// convex, else the union of hulls. At every z its section is the polygon, so that of two bodies raised that
+/// way (this, raised() of body.h, their margins) which move in the plane, relation, verdict and contact time
+/// are those of the planar bodies, and so are distances. Depths are too where the height is no less than the
+/// bodies' sizes. Throws InputError as convex_pieces(), and naming "height".
+[[nodiscard]] Body raised(const Polygon& polygon, double height);
 
 // Meshes and clouds to files, so that reading gives the same numbers.
 

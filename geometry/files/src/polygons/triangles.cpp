@@ -3,7 +3,7 @@
 // Polygons cut into triangles.
 #include <vericone/files/files.h>
 #include <vericone/geometry/error.h>
-#include <vericone/geometry/exact/rational.h>
+#include <vericone/internal/geometry/outline.h>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -26,14 +26,7 @@ class Outline {
 
   /// Which way a to b to c turns: 1, 0, -1.
   int turn(std::uint32_t a, std::uint32_t b, std::uint32_t c) const {
-    const Eigen::Vector3d &p = points_[a], &q = points_[b], &r = points_[c];
-    // Of a difference of two products of differences (Shewchuk 1997, with room for underflow).
-    const double left = (q(i_) - p(i_)) * (r(j_) - p(j_)), right = (q(j_) - p(j_)) * (r(i_) - p(i_)),
-                 area = left - right;
-    if (std::abs(area) > 0x1p-51 * (std::abs(left) + std::abs(right)) + 0x1p-1000) return area > 0 ? 1 : -1;
-    using exact::Rational;
-    const Rational px = p(i_), py = p(j_);
-    return Rational((q(i_) - px) * (r(j_) - py) - (q(j_) - py) * (r(i_) - px)).sign();
+    return outlines::turn(at(a), at(b), at(c));
   }
 
   /// Whether x is inside the triangle, or between the ends of its last side; `way`: how the triangle turns.
@@ -154,8 +147,23 @@ class Ears {
     const Triangle t = triangle(k);
     const int turn = way_ * outline_.turn(t[0], t[1], t[2]);
     return turn == 0 || (turn > 0 && !grid_.any_near(outline_, t, [&](std::uint32_t other) {
-             return before_[other] != kGone && outline_.holds(t, way_, corners_[other]);
+             return before_[other] != kGone &&
+                    (outline_.holds(t, way_, corners_[other]) || enters(t, other, k));
            }));
+  }
+
+  /// Whether the outline comes by a corner of the triangle once more, and from there goes into it: at the
+  /// ends of a bridge to a hole.
+  bool enters(const Triangle& t, std::uint32_t other, std::uint32_t k) const {
+    if (other == k || other == before_[k] || other == next_[k]) return false;
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (corners_[other] != t[i]) continue;
+      for (const std::uint32_t x : {corners_[before_[other]], corners_[next_[other]]})
+        if (way_ * outline_.turn(t[i], t[(i + 1) % 3], x) > 0 &&
+            way_ * outline_.turn(t[(i + 2) % 3], t[i], x) > 0)
+          return true;
+    }
+    return false;
   }
 
   const Outline& outline_;
