@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Slabs and half-spaces: against walls so wide that nothing goes around them, closed forms, touches in whole
+// numbers with the next doubles, and displacements that are tried.
+#include <gtest/gtest.h>
+#include <vericone/cones/slab.h>
+#include <vericone/geometry/error.h>
+#include <vericone/testing/random_bodies.h>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "support/campaign.h"
+
+namespace vericone::testing {
+namespace {
+
+using Eigen::Matrix3d, Eigen::Vector3d;
+
+constexpr double kEver = std::numeric_limits<double>::infinity();
+const Vector3d kStill = Vector3d::Zero();
+
+bool is_delimited(const Body& body) {
+  if (const auto* quadric = body.quadric()) return !quadric->is_ellipsoid();
+  const auto* quadrics = body.quadrics();
+  return quadrics &&
+         std::any_of(quadrics->begin(), quadrics->end(), [](const auto& one) { return !one.is_ellipsoid(); });
+}
+
+/// A random body of any kind but those with hyperboloids.
+Body solid(RandomBodies& random) {
+  for (;;) {
+    const Body body =
+        any_body(random, kBodyKinds[std::size_t(random.integer(0, int(kBodyKinds.size()) - 1))]);
+    if (!is_delimited(body)) return body;
+  }
+}
+
+/// A wall 1 km wide is met as the slab is by bodies that go at most some 10 m along it.
+TEST(Slabs, AreMetAsWideWallsAre) {
+  RandomBodies random(4110);
+  SCOPED_TRACE(random.trace());
+  std::array<int, 6> seen{};
+  constexpr double kTurned = 1e-12;  // m, roundings of its corners
+  const int cases = campaign_size(25, 5'000);
+  for (int i = 0; i < cases; ++i) {
+    const double thick = random.coin() ? 0 : random.uniform(0.1, 3);
+    const Pose wall{random.in_box(3), random.rotation()};
+    const Placed agent(solid(random), any_pose(random, random.uniform(0, 6)));
+    const HullBody box = HullBody::box({-500, -500, thick > 0 ? -thick : -500}, {500, 500, 0});
+    const Vector3d n = random.uniform(0.1, 4) * wall.rotation.col(2);
+    const double high = n.dot(wall.position);
+    const SlabPair slab(agent, {n, thick > 0 ? high - thick * n.norm() : -kEver, high});
+    const Pair pair(agent, Placed(box, wall));
+    EXPECT_EQ(slab.relation(), pair.relation()) << i;
+    for (int k = 0; k < 5; ++k) {
+      const Vector3d v = random.in_box(1), u = random.in_box(1);
+      const double along = std::abs(n.dot(v - u)) / n.norm();
+      if (along < 0.05) continue;  // it would go around the wall
+      const Verdict verdict = slab.verdict(v, u);
+      EXPECT_EQ(verdict, pair.verdict(v, u)) << i;
+      ++seen[std::size_t(verdict)];
+      const auto contact = slab.contact(v, u), other = pair.contact(v, u);
+      ASSERT_EQ(contact.has_value(), other.has_value()) << i;
+      const Miss miss = slab.miss(v, u), far = pair.miss(v, u);
+      if (slab.relation() != Relation::disjoint) continue;
+      if (!contact) {
+        EXPECT_LE(miss.least, far.most + kTurned);
+        EXPECT_GE(miss.most, far.least - kTurned);
+        EXPECT_LT(miss.most - miss.least, 1e-11);
+        EXPECT_NEAR((miss.normal - far.normal).norm(), 0, 1e-4);
+        continue;
+      }
+      EXPECT_LE(contact->earliest, other->latest + kTurned / along);  // of a wall that is turned: rounded
+      EXPECT_GE(contact->latest, other->earliest - kTurned / along);
+      EXPECT_LT(contact->latest - contact->earliest, 1e-9);
+      const Vector3d on = *contact->point - contact->time * u;
+      EXPECT_NEAR(std::min(std::abs(n.dot(on) - high), std::abs(n.dot(on) - high + thick * n.norm())), 0,
+                  1e-8 * n.norm());
+      // Before it and after it.
+      EXPECT_EQ(slab.verdict(v, u, contact->earliest * (1 - 1e-9)), Verdict::out);
+      EXPECT_EQ(slab.verdict(v, u, contact->latest * (1 + 1e-9)), Verdict::in);
+    }
+    if (const auto depth = slab.penetration()) {
+      // Moved that far it is out, to rounding, and no shorter way along the normal is.
+      const auto moved = [&](double by) {
+        Placed there = agent;
+        there.pose.position -= by * depth->normal;
+        return SlabPair(there, {n, thick > 0 ? high - thick * n.norm() : -kEver, high}).relation();
+      };
+      EXPECT_EQ(moved(depth->most + 1e-9), Relation::disjoint);
+      for (const double part : {-1.0, -0.7, 0.3, 0.9, 0.999})
+        EXPECT_EQ(moved(part * (depth->least - 1e-9)), Relation::overlapping) << part;
+      EXPECT_LT(depth->most - depth->least, 1e-9);
+    }
+  }
+  EXPECT_GT(seen[std::size_t(Verdict::in)], cases / 4);
+  EXPECT_GT(seen[std::size_t(Verdict::out)], cases / 4);
+  EXPECT_GT(seen[std::size_t(Verdict::overlapping)], cases / 4);
+}
+
+/// Normals and bodies whose lengths are whole: with the next doubles on both sides of the touch.
+TEST(Slabs, AreTouchedExactly) {
+  struct Case {
+    Body body;
+    Vector3d normal;
+    double reach;  // -min normal.x over the body
+  };
+  const Case cases[] = {
+      {Convex::cylinder(5, 4), {3, 4, 0}, 25},
+      {Convex::cylinder(5, 4), {3, 4, 12}, 5 * 5 + 2 * 12},
+      {Convex::capsule(2, 6), {2, 3, 6}, 3 * 6 + 2 * 7},
+      {Convex::cone(4, 6), {3, 4, 12}, 5 * 4 + 3 * 12},
+      {Convex::box({1, 2, 3}), {1, -5, 7}, 1 + 10 + 21},
+      {Convex::box({1, 2, 3}).swollen(0.5), {2, 3, 6}, 2 + 6 + 18 + 3.5},
+      {Ellipsoid::from_axes(kStill, {2, 3, 6}, Matrix3d::Identity()), {1.5, 2, 1}, 9},
+      {Convex::rounded(Ellipsoid::from_axes(kStill, {3, 1, 1}, Matrix3d::Identity()), 0.25),
+       {2, 3, 6},
+       9 + 0.25 * 7},
+      {Assembly::cloud({{0, 0, 0}, {1, 1, 1}}, 3), {2, 3, 6}, 21},
+  };
+  for (const Case& one : cases) {
+    for (const double offset : {0.0, -7.0, 1024.0}) {
+      const auto relation = [&](double high) {
+        return SlabPair(one.body, {one.normal, -kEver, high}).relation();
+      };
+      const double touch = -one.reach;
+      EXPECT_EQ(relation(touch), Relation::touching);
+      EXPECT_EQ(relation(std::nextafter(touch, -kEver)), Relation::disjoint);
+      EXPECT_EQ(relation(std::nextafter(touch, kEver)), Relation::overlapping);
+      // Placed elsewhere, and from below.
+      const Placed there(one.body, Pose{Vector3d(offset, 0, 0), Matrix3d::Identity()});
+      const double moved = offset * one.normal.x();
+      EXPECT_EQ(SlabPair(there, {one.normal, -kEver, touch + moved}).relation(), Relation::touching);
+      EXPECT_EQ(SlabPair(there, {-one.normal, -touch - moved, kEver}).relation(), Relation::touching);
+      // They reach it at the very end: 8 away along the normal, at 4 a second.
+      const double most = one.normal.cwiseAbs().maxCoeff();
+      Vector3d w = kStill;
+      for (int k = 0; k < 3; ++k)
+        if (std::abs(one.normal(k)) == most) w(k) = one.normal(k) > 0 ? -1 : 1;
+      const SlabPair away(one.body, {one.normal, -kEver, touch - 8 * most});
+      EXPECT_EQ(away.verdict(w, kStill, 8), Verdict::on);
+      EXPECT_EQ(away.verdict(w, kStill, std::nextafter(8, 9)), Verdict::in);
+      EXPECT_EQ(away.verdict(w, kStill, std::nextafter(8, 7)), Verdict::out);
+      EXPECT_EQ(away.verdict(kStill, -w), Verdict::in);
+    }
+  }
+}
+
+TEST(Slabs, AreNotMetAlongTheirPlane) {
+  const SlabPair ground(Placed(Convex::cylinder(1, 2), Pose{{0, 0, 5}, Matrix3d::Identity()}),
+                        Slab{{0, 0, 1}, -kEver, 0});
+  EXPECT_EQ(ground.verdict({1e9, 3, 0}, kStill), Verdict::out);
+  EXPECT_EQ(ground.verdict({1e9, 3, -5e-324}, kStill), Verdict::in);
+  EXPECT_EQ(ground.verdict({1e9, 3, 5e-324}, kStill), Verdict::out);
+  const Miss miss = ground.miss({1, 0, 0}, kStill);
+  EXPECT_EQ(miss.distance, 4);
+  EXPECT_EQ(miss.time, 0);
+  const auto safe = ground.safe_half_space();
+  ASSERT_TRUE(safe.has_value());
+  EXPECT_NEAR(safe->room, 4, 1e-12);
+  EXPECT_EQ(safe->normal, Vector3d(0, 0, -1));
+  // A slanted normal and a velocity whose product is 0 in whole numbers, and rounds to one that is not.
+  const Vector3d n(0.1, 0.2, 0.3), along(n.y(), -n.x(), 0);
+  const SlabPair slanted(Placed(Convex::cylinder(1, 2), Pose{{9, 9, 9}, Matrix3d::Identity()}),
+                         Slab{n, -kEver, 0});
+  EXPECT_EQ(slanted.verdict(along, kStill), Verdict::out);
+  EXPECT_EQ(slanted.verdict(-along, kStill), Verdict::out);
+}
+
+TEST(Slabs, PartsOnBothSidesMeetThemEitherWay) {
+  const Assembly both = Assembly::boxes({{{0, 0, 2}, {1, 1, 3}}, {{0, 0, -4}, {1, 1, -3}}});
+  const SlabPair pair(Body(both), {{0, 0, 1}, -1, 1});
+  EXPECT_EQ(pair.relation(), Relation::disjoint);
+  EXPECT_EQ(pair.verdict({0, 0, 1}, kStill), Verdict::in);
+  EXPECT_EQ(pair.verdict({0, 0, -1}, kStill), Verdict::in);
+  EXPECT_EQ(pair.verdict({1, 0, 0}, kStill), Verdict::out);
+  EXPECT_NEAR(pair.contact({0, 0, 1}, kStill)->time, 2, 1e-12);
+  EXPECT_NEAR(pair.contact({0, 0, -1}, kStill)->time, 1, 1e-12);
+  EXPECT_FALSE(pair.safe_half_space().has_value());
+  // Moved down by 1.5 a part is in it: 0.5 up, not all of both parts above it.
+  const SlabPair deep(Placed(both, Pose{{0, 0, -1.5}, Matrix3d::Identity()}), {{0, 0, 1}, -1, 1});
+  ASSERT_TRUE(deep.penetration().has_value());
+  EXPECT_NEAR(deep.penetration()->most, 0.5, 1e-12);
+  EXPECT_GE(deep.penetration()->most, 0.5);
+  EXPECT_LE(deep.penetration()->least, 0.5);
+}
+
+TEST(Slabs, ThatAreNoneAreRefused) {
+  const auto field = [](const Slab& slab, const Body& body = Body()) {
+    try {
+      static_cast<void>(SlabPair(body, slab));
+    } catch (const InputError& e) {
+      return e.field();
+    }
+    return std::string();
+  };
+  const double none = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(field({}), "");
+  EXPECT_EQ(field({{0, 0, 0}}), "slab.normal");
+  EXPECT_EQ(field({{0, kEver, 0}}), "slab.normal[1]");
+  EXPECT_EQ(field({{0, 0, 1}, none, 0}), "slab.low");
+  EXPECT_EQ(field({{0, 0, 1}, 2, 1}), "slab.high");
+  EXPECT_EQ(field({{0, 0, 1}, -kEver, kEver}), "slab.high");
+  RandomBodies random(4111);
+  EXPECT_EQ(field({}, any_body(random, BodyKind::combined)), "agent");
+  EXPECT_THROW(static_cast<void>(SlabPair(Body(), {}).verdict({none, 0, 0}, kStill)), InputError);
+  EXPECT_THROW(static_cast<void>(SlabPair(Body(), {}).verdict(kStill, kStill, -1)), InputError);
+}
+
+}  // namespace
+}  // namespace vericone::testing
