@@ -130,7 +130,7 @@ double Look::by_plane(const Vector3d& n, double back, double ahead) const {
 double Look::bound(double back, double ahead) const {
   const double s = std::max(back, ahead);
   const double rounding = this->rounding(t_ + ahead);
-  const double way = (velocity_.norm() * s + 0.5 * acceleration_.norm() * s * s) * (1 + 1e-12);
+  const double way = (velocity_.norm() * s + 0.5 * acceleration_.stableNorm() * s * s) * (1 + 1e-12);
   const double by_distance = least_ - way - sway(path_a_, s) - sway(path_b_, s);
   const double by_balls = between_.norm() - way - path_a_.reach() - path_b_.reach();
   const double best = std::max(by_distance, by_balls) - rounding;

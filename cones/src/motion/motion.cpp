@@ -196,6 +196,16 @@ void require(const Horizon& horizon, const MotionOptions& options) {
   if (options.most_steps == 0) throw InputError("most_steps", "0", "at least 1");
 }
 
+/// A body that all but keeps its speed comes to stand farther away than squared lengths can tell.
+void require_near(const Path& path, double to, double braking, const std::string& name) {
+  constexpr double kFarthest = 1e150;  // m
+  if (!std::isfinite(path.stop())) return;
+  const Vector3d way = path.course(to).center - path.course(0).center;
+  if (!(way.stableNorm() < kFarthest))
+    throw InputError(name + ".braking", to_text(braking),
+                     "0, or enough to stand within 1e150 m (m/s^2); or within a horizon, [from, until]");
+}
+
 /// What is proved of the bodies at one instant: what they are as placed, nothing being rounded at 0.
 std::optional<Verdict> standing_verdict(const Path& a, const Path& b, double t) {
   if (t > 0) return meet(a, b, t) ? std::optional(Verdict::overlapping) : std::nullopt;
@@ -239,6 +249,8 @@ MotionAnswer motion_answer(const Placed& agent, const BodyMotion& agent_motion, 
   for (const double stop : {a.stop(), b.stop()})
     if (std::isfinite(stop)) stands = std::max(stands, stop);
   const double to = std::min(horizon.until, motion::parted(a, b, stands));
+  motion::require_near(a, to, agent_motion.braking, "agent");
+  motion::require_near(b, to, obstacle_motion.braking, "obstacle");
   if (!std::isfinite(to))
     throw InputError("horizon", "no end", "one with an end: these bodies turn beside each other for ever");
 

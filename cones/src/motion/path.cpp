@@ -31,6 +31,8 @@ void require_motion(const BodyMotion& motion, const std::string& name) {
   if (motion.center) require_finite(*motion.center, name + ".center", "m");
   if (!(motion.braking >= 0) || !std::isfinite(motion.braking))
     throw InputError(name + ".braking", to_text(motion.braking), "not negative (m/s^2)");
+  if (motion.braking > 1e300)
+    throw InputError(name + ".braking", to_text(motion.braking), "at most 1e300 (m/s^2)");
   if (motion.braking > 0 && !motion.acceleration.isZero(0))
     throw InputError(name + ".braking", to_text(motion.braking), "left out beside an acceleration");
 }
@@ -189,7 +191,7 @@ Placed Path::about_center(double t) const {
 
 double Path::rounding(double t) const {
   const double until = std::min(t, stop_);
-  const double way = velocity_.norm() * until + 0.5 * acceleration_.norm() * until * until;
+  const double way = velocity_.norm() * until + 0.5 * acceleration_.stableNorm() * until * until;
   // The angle and its sine and cosine, the product with the rotation, the points, the center and its way.
   const double turning = reach_ * (64 + 8 * rate_ * t);
   const double places = 32 * (2 * center_.norm() + start_.position.norm() + way + reach_);

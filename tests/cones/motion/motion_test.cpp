@@ -156,6 +156,21 @@ TEST(Motion, ABodyThatBrakesStandsAndDoesNotTurnBack) {
   EXPECT_EQ(motion_answer(car, braking, far, harder).verdict, Verdict::out);
 }
 
+TEST(Motion, ABodyBrakesAsHardOrAsGentlyAsNumbersGo) {
+  const Placed car = at(Convex::box({2, 1, 1}), {0, 0, 0}), wall = at(Convex::box({1, 5, 5}), {13, 0, 0});
+  const auto answer = [&](double braking, const Horizon& horizon) {
+    return motion_answer(car, {{30, 0, 0}, Vector3d::Zero(), Vector3d::Zero(), braking}, wall, {}, horizon);
+  };
+  for (const double hard : {1e150, 1e300}) {
+    const auto stands = answer(hard, {});  // at once
+    ASSERT_EQ(stands.verdict, Verdict::out) << hard;
+    EXPECT_NEAR(stands.most, 10, 1e-9);
+    EXPECT_LE(stands.least, 10);
+  }
+  expect_contact(answer(1e-300, {0, 20}), 10.0 / 30);
+  EXPECT_EQ(answer(1e-300, {0, 0.3}).verdict, Verdict::out);
+}
+
 TEST(Motion, RoundBodiesDoNotTurnAboutTheirAxis) {
   const Placed rotor = at(Convex::cylinder(3, 0.5), {0, 0, 1}),
                disc = at(Convex::cylinder(2, 1), {5.25, 0, 1});
@@ -409,6 +424,11 @@ TEST(Motion, BadInputIsNamed) {
             "agent.acceleration[0]: got inf, must be a finite number (m/s^2)");
   EXPECT_EQ(refused({{0, 0, kNone}}), "agent.velocity[2]: got nan, must be a finite number (m/s)");
   EXPECT_EQ(refused({zero, zero, zero, -1}), "agent.braking: got -1, must be not negative (m/s^2)");
+  EXPECT_EQ(refused({{1, 0, 0}, zero, zero, 1e301}),
+            "agent.braking: got 1e+301, must be at most 1e300 (m/s^2)");
+  EXPECT_EQ(refused({{1, 0, 0}, zero, zero, 1e-300}, {}),
+            "agent.braking: got 1e-300, must be 0, or enough to stand within 1e150 m (m/s^2); or within a "
+            "horizon, [from, until]");
   EXPECT_EQ(refused({{1, 0, 0}, {1, 0, 0}, zero, 1}),
             "agent.braking: got 1, must be left out beside an acceleration");
   EXPECT_EQ(refused({zero, zero, zero, 0, Vector3d(0, 0, kNone)}),
