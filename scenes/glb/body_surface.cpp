@@ -154,6 +154,18 @@ Drawn flat_surface(const CombinedEllipse& body) {
   return drawn;
 }
 
+Drawn flat_surface(const std::vector<std::vector<Eigen::Vector2d>>& outlines, const Vector3d& origin) {
+  Drawn drawn;
+  for (const auto& outline : outlines) {
+    const auto first = static_cast<std::uint32_t>(drawn.points.size());
+    for (const Eigen::Vector2d& x : outline)
+      drawn.points.emplace_back(x.x() - origin.x(), x.y() - origin.y(), 0);
+    for (std::uint32_t i = 2; i < outline.size(); ++i)
+      drawn.triangles.push_back({first, first + i - 1, first + i});
+  }
+  return drawn;
+}
+
 Drawn world_surface(const WorldBody& body, const Vector3d& origin) {
   if (body.flat()) {
     Drawn flat = flat_surface(*body.flat());

@@ -16,6 +16,9 @@ Drawn body_surface(const Body& body, const Eigen::Vector3d& origin);
 /// The same of a planar body: what it covers of z = 0.
 Drawn flat_surface(const CombinedEllipse& body);
 
+/// The same of convex outlines, less `origin`.
+Drawn flat_surface(const std::vector<std::vector<Eigen::Vector2d>>& outlines, const Eigen::Vector3d& origin);
+
 /// The body in its own frame about `origin`, m.
 Drawn world_surface(const WorldBody& body, const Eigen::Vector3d& origin);
 

@@ -12,6 +12,7 @@
 #include "glb/body_surface.h"
 #include "glb/glb_file.h"
 #include "json/json_value.h"
+#include "solids/flat_body.h"
 
 namespace vericone::glb {
 namespace {
@@ -73,12 +74,13 @@ void add_cone(GlbFile& file, const scenes::Scene& scene) {
               file.mesh("relative velocity", {{Vector3d::Zero(), length * w.stableNormalized()}, {}, true},
                         color_of(7)),
               {from, Eigen::Matrix3d::Identity()}, Json{{"w", vector_json(w)}});
-  const auto cone = scene.planar ? drawn_sector(pair, from, to, length) : drawn_cone(pair, from, to, length);
+  const auto cone =
+      scene.in_plane ? drawn_sector(pair, from, to, length) : drawn_cone(pair, from, to, length);
   if (!cone) return;
   Json says{{"is",
              "directions of w = v_agent - v_obstacle: beyond an edge and its error no direction of its "
              "plane collides"},
-            {"planes", scene.planar ? 1 : kPlanes},
+            {"planes", scene.in_plane ? 1 : kPlanes},
             {"edge_error", cone->error}};
   file.node("cone", file.mesh("cone", cone->surface, {0.7, 0.02, 0.02, 0.25}),
             {from, Eigen::Matrix3d::Identity()}, says);
@@ -102,6 +104,13 @@ std::string scene_glb(const scenes::Scene& scene, const Json& answer) {
                        std::size_t number) {
     Json says{{"is", flat ? scenes::body_words(*flat) : scenes::body_words(body.placed)},
               {"velocity", vector_json(body.velocity)}};
+    if (scene.in_plane && !flat) {
+      const Vector3d middle = body.placed.middle();
+      file.node(name,
+                file.mesh(name, flat_surface(input::flat_outlines(body.placed), middle), color_of(number)),
+                {middle, Eigen::Matrix3d::Identity()}, says);
+      return;
+    }
     if (!flat) return add_body(file, {name, body.placed, 1, says}, number);
     const Eigen::Vector2d center = flat->center();
     file.node(name, file.mesh(name, flat_surface(*flat), color_of(number)),

@@ -8,6 +8,7 @@
 #include "input/planar_body.h"
 #include "json/json_value.h"
 #include "solids/convex_body.h"
+#include "solids/flat_body.h"
 #include "units/geographic.h"
 
 namespace vericone::input {
@@ -47,7 +48,7 @@ void read_velocities(const Json& value, Velocities velocities, Scene& scene) {
 }
 
 constexpr const char* kPlanarBody =
-    "a body: center with semi_axes and rotation, with shape, or with a_c, b_c, k, phi";
+    "a body: center with semi_axes and rotation, with shape, or with a_c, b_c, k, phi; or polygon or stadium";
 constexpr const char* kSpatialBody =
     "a body: center with semi_axes and rotation, or with shape; or quadric, or one made of pieces; or a word "
     "(cylinder, ...) with its sizes; or file";
@@ -63,7 +64,7 @@ Scene planar_scene(const Json& value, Velocities velocities) {
   const auto body = [&](const CombinedEllipse& flat) {
     return SceneBody{Body(raised(flat, height)), flat.is_ellipsoid() ? "ellipse" : "combined conic"};
   };
-  Scene scene{body(a), body(b), scenes::PlanarBodies{a, b}};
+  Scene scene{body(a), body(b), true, scenes::PlanarBodies{a, b}};
   read_velocities<2>(value, velocities, scene);
   return scene;
 }
@@ -92,14 +93,33 @@ void require_space(const Json& scene) {
     const Json& points = scene[body]["points"];
     if (points.is_array() && !points.empty() && points[0].is_array() && points[0].size() == 2)
       throw InputError(std::string(body) + ".points", quoted(points),
-                       "points [x, y, z]: there are no polygons in the plane");
+                       "points [x, y, z]; of a body in the plane polygon: [[x, y], ...]");
   }
   for (const char* body : {"agent", "obstacle"})
     if (has(body) && dimension(scene[body]) == Dimension::planar)
       throw InputError(
           std::string(body) + ".center", quoted(scene[body]["center"]),
-          "[x, y, z]: a body of pieces, one with a margin or a solid of the words (cylinder, ...) "
-          "is in space, and so is what it may meet");
+          "[x, y, z]: a body of pieces or a solid of the words (cylinder, ...) is in space, and so is what "
+          "it may meet");
+}
+
+/// Whether both bodies are of the plane, and flat_scene() reads them: one is a polygon or a stadium, or has a
+/// margin there.
+bool is_flat(const Json& agent, const Json& obstacle) {
+  const auto in_space = [](const Json& body) {
+    return dimension(body) == Dimension::spatial || is_pieces_body(body) || is_union(body);
+  };
+  const auto own = [](const Json& body) {
+    return is_flat_word(body) || (dimension(body) == Dimension::planar && body.contains("margin"));
+  };
+  return (own(agent) || own(obstacle)) && !in_space(agent) && !in_space(obstacle);
+}
+
+Scene flat_engagement(const Json& value, Velocities velocities) {
+  Scene scene = flat_scene(require_field(value, "", "agent", kPlanarBody),
+                           require_field(value, "", "obstacle", kPlanarBody));
+  read_velocities<2>(value, velocities, scene);
+  return scene;
 }
 
 /// Whether a body is one of those that pieces_scene() reads.
@@ -149,6 +169,7 @@ Json plain(const Json& engagement, const std::filesystem::path& folder) {
 
 SceneBody read_body(const Json& given, const std::string& path, const std::filesystem::path& folder) {
   Json value = body_fields(given, path, folder);
+  refuse_words_of_scenes(value, path);
   if (value.is_object() && value.contains("margin")) {
     const double margin = not_negative("m").read(value["margin"], join(path, "margin"));
     value.erase("margin");
@@ -192,6 +213,7 @@ Scene read_engagement(const Json& value, Velocities velocities, const std::vecto
   };
   const Json &a = field("agent"), &b = field("obstacle");
   if (!is_plain(a) || !is_plain(b)) return read_engagement(plain(value, folder), velocities, also, folder);
+  if (is_flat(a, b)) return flat_engagement(value, velocities);
   if (is_of_pieces(a) || is_of_pieces(b)) return pieces_scene(value, velocities, folder);
   const Dimension agent = dimension(a), obstacle = dimension(b);
   const bool planar = agent != Dimension::spatial && obstacle != Dimension::spatial &&

@@ -30,7 +30,7 @@ inline constexpr const char* kRotationSentence =
 /// [x, y] or [x, y, z], as schemas have it of either.
 inline constexpr const char* kMarginSentence =
     "The body and all that is within this distance of it, exactly: each of its parts. Of a body from a file, "
-    "in addition to the file's own. Not of bodies with hyperboloids, nor in the plane.";
+    "in addition to the file's own. Not of bodies with hyperboloids or hyperbolas.";
 
 template <int D>
 Value<Eigen::Matrix<double, D, 1>> point(const char* unit = "m") {

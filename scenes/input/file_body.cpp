@@ -7,6 +7,7 @@
 #include "input/body_kind.h"
 #include "input/scene.h"
 #include "json/json_value.h"
+#include "solids/flat_body.h"
 
 namespace vericone::input {
 namespace {
@@ -95,7 +96,7 @@ Json matrix_of(const Eigen::Matrix3d& m) {
 
 /// The body moved as a whole: its own place and turn, and those of its file on top.
 Json moved(Json body, const Json& by, const std::string& path) {
-  const bool in_space = !body.contains("center") || body["center"].size() == 3;
+  const bool in_space = !is_flat_word(body) && (!body.contains("center") || body["center"].size() == 3);
   for (const char* field : {"center", "rotation"})
     if (by.contains(field) && (body.contains("quadric") || !in_space))
       throw InputError(path + "." + field, quoted(by[field]),

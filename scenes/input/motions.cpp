@@ -94,7 +94,7 @@ std::optional<MotionsGiven> take_motions(Json& engagement) {
 }
 
 Motions read_motions(const MotionsGiven& given, const scenes::Scene& scene) {
-  const bool planar = scene.planar.has_value();
+  const bool planar = scene.in_plane;
   return {motion_of(given.agent, "agent", scene.agent, planar),
           motion_of(given.obstacle, "obstacle", scene.obstacle, planar)};
 }

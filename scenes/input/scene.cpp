@@ -200,7 +200,7 @@ FileKind kind_of_file(const Json& fields) {
   if (has({"bodies"})) return FileKind::scenario;
   if (has({"uas", "cars", "cameras"})) return FileKind::pursuit;
   if (has({"agent"})) return FileKind::scene;
-  if (has({"semi_axes", "shape", "quadric", "a_c", "pieces"}) || is_pieces_body(fields))
+  if (has({"semi_axes", "shape", "quadric", "a_c", "pieces", "polygon", "stadium"}) || is_pieces_body(fields))
     return FileKind::body;
   return FileKind::unknown;
 }

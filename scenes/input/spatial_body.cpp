@@ -6,6 +6,7 @@
 #include "input/assembly_body.h"
 #include "input/body_kind.h"
 #include "json/json_value.h"
+#include "solids/flat_body.h"
 
 namespace vericone::input {
 namespace {
@@ -85,6 +86,7 @@ const Fields<SpatialFields>& spatial_fields() {
 
 /// What holds of several fields together.
 void check_spatial(const Json& value, const std::string& path) {
+  refuse_words_of_scenes(value, path);
   const int kinds = value.contains("semi_axes") + value.contains("shape") + value.contains("quadric");
   if (kinds > 0) {
     spatial_fields().require_known(value, path);

@@ -7,6 +7,8 @@
 #include "input/planar_body.h"
 #include "input/scene.h"
 #include "solids/convex_body.h"
+#include "solids/flat_body.h"
+#include "solids/slab_body.h"
 #include "units/geographic.h"
 
 namespace vericone::input {
@@ -76,8 +78,9 @@ Json schema_of(const std::string& title, const std::string& description, Json fi
 }
 
 Json body_schema() {
-  std::vector<Json> tables{spatial_schema()["properties"], planar_schema()["properties"]};
-  std::string kinds = "semi_axes, shape, quadric, a_c";
+  std::vector<Json> tables{spatial_schema()["properties"], planar_schema()["properties"],
+                           flat_schema()["properties"]};
+  std::string kinds = "semi_axes, shape, quadric, a_c, polygon, stadium";
   for (const BodyKind& kind : body_kinds()) {
     tables.push_back(kind.properties);
     kinds += ", " + kind.name;
@@ -92,9 +95,12 @@ Json body_schema() {
   fields["velocity"]["description"] =
       "In scenes and cases another way to write `agent_velocity` or `obstacle_velocity`.";
   fields.update(motion_schema());
+  fields.update(slab_schema());
   Json names = values();
   names["hyperboloid"] = hyperboloid_schema();
   names["hyperbola"] = hyperbola_schema();
+  names["stadium"] = stadium_schema();
+  names.update(slab_schemas());
   names.update(convex_schemas());
   names["body"] = {
       {"title", "body"}, {"type", "object"}, {"properties", fields}, {"additionalProperties", false}};

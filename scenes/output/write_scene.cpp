@@ -285,6 +285,13 @@ Json spatial_fields(const SceneBody& body, const std::string& name, const fs::pa
   return *fields;
 }
 
+/// Of a polygon, a stadium or one with a margin: only a file's own fields give it.
+Json flat_fields(const SceneBody& body, const std::string& name, const fs::path& file) {
+  const auto fields = remembered(body, file.parent_path());
+  if (!fields) refuse(body, name);
+  return *fields;
+}
+
 /// Of a body in the plane.
 Json planar_fields(const SceneBody& body, const CombinedEllipse& flat, const std::string& name,
                    const fs::path& file) {
@@ -314,11 +321,17 @@ void write_scene(const Scene& scene, const fs::path& given) {
   if (scene.planar) {
     fields["agent"] = planar_fields(scene.agent, scene.planar->agent, "agent", file);
     fields["obstacle"] = planar_fields(scene.obstacle, scene.planar->obstacle, "obstacle", file);
-    fields["agent_velocity"] = vector_json(scene.agent.velocity.head<2>());
-    fields["obstacle_velocity"] = vector_json(scene.obstacle.velocity.head<2>());
+  } else if (scene.in_plane) {
+    fields["agent"] = flat_fields(scene.agent, "agent", file);
+    fields["obstacle"] = flat_fields(scene.obstacle, "obstacle", file);
   } else {
     fields["agent"] = spatial_fields(scene.agent, "agent", file, files);
     fields["obstacle"] = spatial_fields(scene.obstacle, "obstacle", file, files);
+  }
+  if (scene.in_plane) {
+    fields["agent_velocity"] = vector_json(scene.agent.velocity.head<2>());
+    fields["obstacle_velocity"] = vector_json(scene.obstacle.velocity.head<2>());
+  } else {
     fields["agent_velocity"] = vector_json(scene.agent.velocity);
     fields["obstacle_velocity"] = vector_json(scene.obstacle.velocity);
   }

@@ -13,6 +13,7 @@
 #include "input/spatial_body.h"
 #include "json/json_value.h"
 #include "output/schemas.h"
+#include "solids/flat_body.h"
 
 namespace vericone::scenario {
 namespace {
@@ -155,6 +156,7 @@ simulation::ShapeInTime read_shape(const Json& given, const std::string& path,
                                    std::optional<scenes::Reading>& reading) {
   require_object(given, path);
   const Json value = input::body_fields(given, path, folder);
+  input::refuse_words_of_scenes(value, path);
   if (value.contains("margin")) return read_swollen(value, path, folder, reading);
   const bool from_file = input::is_pieces_body(value) && !value.contains("points");
   if (!from_file && !input::is_union(value)) shape_fields().require_known(value, path);
@@ -194,7 +196,8 @@ Json shape_schemas() {
   const Json body = input::body_schema()["$defs"]["body"]["properties"];
   const Json moving = input::motion_schema();
   for (const auto& [name, field] : body.items())
-    if (name != "velocity" && !moving.contains(name) && !shape["properties"].contains(name))
+    if (name != "velocity" && !moving.contains(name) && !input::is_word_of_scenes(name) &&
+        !shape["properties"].contains(name))
       shape["properties"][name] = of_body(name);
   const Json number{{"type", "number"}};
   return {{"shape", std::move(shape)},

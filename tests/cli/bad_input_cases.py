@@ -61,6 +61,13 @@ def pieces(agent=None, **obstacle):
             "agent_velocity": [1, 0, 0], "obstacle_velocity": [0, 0, 0]}
 
 
+def flat(agent=None, velocity=(1, 0), **obstacle):
+    """An engagement in the plane, of a polygon if nothing else is said."""
+    return {"id": 7, "agent": agent or {"stadium": {"radius": 1, "length": 2}, "center": [20, 0]},
+            "obstacle": obstacle or {"polygon": SQUARE}, "agent_velocity": list(velocity), "obstacle_velocity": [0, 0]}
+
+
+SQUARE = [[0, 0], [8, 0], [8, 8], [0, 8]]
 AT_REST = {"position": [0, 0], "velocity": [20, 0]}
 AHEAD = {"position": [50, -30], "velocity": [22, 0]}
 
@@ -203,6 +210,27 @@ QUERIES = [
     ("a region for a mesh", pieces(mesh="points.xyz", region=[[0, 0, 0], [1, 1, 1]])),
     ("no points", pieces(points=[])),
     ("points in the plane", pieces(points=[[1, 2]])),
+    ("a polygon of two corners", flat(polygon=[[0, 0], [1, 0]])),
+    ("a polygon that crosses itself", flat(polygon=[[0, 0], [4, 4], [4, 0], [0, 4]])),
+    ("a polygon in space", flat(polygon=[[0, 0, 0], [4, 4, 0], [4, 0, 0]])),
+    ("a polygon that turns back", flat(polygon=[[0, 0], [4, 0], [2, 0]])),
+    ("a hole beyond its polygon", flat(polygon=SQUARE, holes=[[[9, 9], [10, 9], [9, 10]]])),
+    ("a hole that touches its polygon", flat(polygon=SQUARE, holes=[[[1, 0], [2, 1], [1, 2]]])),
+    ("holes without a polygon", flat(stadium={"radius": 1, "length": 2}, holes=[[[1, 1], [2, 1], [1, 2]]])),
+    ("a polygon and a stadium", flat(polygon=SQUARE, stadium={"radius": 1, "length": 2})),
+    ("a stadium without radius", flat(stadium={"radius": 0, "length": 2})),
+    ("a margin of a body with hyperbolas in the plane", flat(
+        center=[0, 0], semi_axes=[2, 2], hyperbolas=[{"semi_axes": [1, 1]}], margin=0.1)),
+    ("a polygon before a cylinder", pieces({"polygon": SQUARE}, cylinder={"radius": 1, "height": 2})),
+    ("a half-space without a normal", pieces(half_space={"offset": 1})),
+    ("a half-space with a normal of zero", pieces(half_space={"normal": [0, 0, 0], "offset": 1})),
+    ("a half-space without an offset", pieces(half_space={"normal": [0, 0, 1]})),
+    ("a half-space with a centre", pieces(half_space={"normal": [0, 0, 1], "offset": 1}, center=[1, 2, 3])),
+    ("a slab turned over", pieces(slab={"normal": [0, 0, 1], "offsets": [2, 1]})),
+    ("an agent that is a half-space", pieces({"half_space": {"normal": [0, 0, 1], "offset": 1}}, **CUBE)),
+    ("a slab from later on", {**pieces(slab={"normal": [0, 0, 1], "offsets": [5, 6]}), "horizon": [1, 2]}),
+    ("a spin beside a half-space", pieces({"center": [0, 0, 0], "semi_axes": [1, 2, 3], "spin": [0, 0, 1]},
+                                          half_space={"normal": [0, 0, 1], "offset": -9})),
     ("points and a mesh", pieces(points=[[1, 2, 3]], mesh="points.xyz")),
     ("a mesh and semi-axes", pieces(mesh="points.xyz", semi_axes=[1, 1, 1])),
     ("a cube with a centre in the plane", pieces(**CUBE, center=[1, 2])),
@@ -228,7 +256,6 @@ QUERIES = [
     ("a negative margin", case(obstacle={"margin": -1})),
     ("a margin that is text", case(obstacle={"margin": "thick"})),
     ("a margin of a body with dents", dented(GOOD_HYPERBOLOID, margin=1)),
-    ("a margin in the plane", planar(semi_axes=[3, 2], margin=1)),
     ("a robot that is not there", pieces(robot="nowhere.urdf")),
     ("a robot that is a mesh", pieces(robot="junk.obj")),
     ("a robot that breaks off", pieces(robot="cut.urdf")),

@@ -188,8 +188,11 @@ class Schemas(unittest.TestCase):
             fields |= self.taken("check", pair % f"{{{kind}, zzz: 1}}", "obstacle.zzz")
         flat = "agent: {center: [0, 0], semi_axes: [1, 1]}\nobstacle: {center: [9, 0], semi_axes: [1, 1], zzz: 1}\n"
         fields |= self.taken("check", flat, "obstacle.zzz")
-        moving = {"spin", "acceleration", "braking"}  # which queries alone take
-        self.assertEqual(fields | moving, set(body["$defs"]["body"]["properties"]))
+        words = "agent: {center: [0, 0], semi_axes: [1, 1]}\nobstacle: {polygon: [], zzz: 1}\n"
+        of_scenes = self.taken("check", words, "obstacle.zzz") - fields
+        self.assertEqual(of_scenes, {"polygon", "holes", "stadium"})
+        of_queries = {"spin", "acceleration", "braking", "half_space", "slab"}
+        self.assertEqual(fields | of_scenes | of_queries, set(body["$defs"]["body"]["properties"]))
         # Where no field says the kind, that one may be misspelt: all are named.
         self.assertEqual(self.taken("check", pair % "{center: [9, 0, 0], zzz: 1}", "obstacle.zzz"),
                          fields - {"a_c", "b_c", "k", "phi", "hyperbolas"})

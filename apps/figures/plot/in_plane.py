@@ -6,11 +6,17 @@ from typing import Any
 
 import matplotlib.pyplot as plt
 import numpy as np
+from matplotlib.colors import to_rgb
 from matplotlib.patches import Arc, Patch, Wedge
 from numpy.typing import NDArray
 
 from . import course as courses
 from .style import AGENT, EXACT, GREY, OBSTACLE, ONE_COLUMN
+
+
+def pale(color: Any, share: float) -> Any:
+    """The color on white paper, not transparent."""
+    return tuple(1 - share * (1 - x) for x in to_rgb(color))
 
 
 def view(seen: list[NDArray[Any]]) -> tuple[NDArray[Any], NDArray[Any]]:
@@ -91,11 +97,19 @@ def engagement(data: dict[str, Any]) -> plt.Figure:
         axes.plot(*np.stack([a - beyond, b + beyond]).T, color=GREY, linewidth=0.7, zorder=3)
         axes.plot(*np.stack([a, b]).T, "o", color=GREY, markersize=2.6, zorder=5)
     for name, color in (("agent", AGENT), ("obstacle", OBSTACLE)):
+        if data[name].get("parts"):  # convex ones: their edges first, so that those within the union are covered
+            parts = [np.array(arc["points"]) for arc in data[name]["arcs"]]
+            for part in parts:
+                axes.fill(*part.T, facecolor="none", edgecolor=color, linewidth=2.2, zorder=3, joinstyle="round")
+            for part in parts:
+                axes.fill(*part.T, facecolor=pale(color, 0.4), linewidth=0, zorder=4)
+            continue
         axes.fill(*outlines[name].T, facecolor=color, alpha=0.4, linewidth=0, zorder=3)
         axes.fill(*outlines[name].T, facecolor="none", edgecolor=color, linewidth=1.1, zorder=4)
-    if travel.any():
-        axes.fill(*(outlines["agent"] + travel).T, facecolor="none", edgecolor=AGENT, linewidth=0.9, linestyle=(0, (3, 1.5)),
-                  zorder=4)
+    for arc in data["agent"]["arcs"] if data["agent"].get("parts") else [{"points": outlines["agent"]}]:
+        if travel.any():
+            axes.fill(*(np.array(arc["points"]) + travel).T, facecolor="none", edgecolor=AGENT, linewidth=0.9,
+                      linestyle=(0, (3, 1.5)), zorder=4)
     if arrow is not None:
         axes.annotate("", xy=arrow, xytext=agent, zorder=6,
                       arrowprops={"arrowstyle": "-|>", "color": says, "lw": 1.2, "shrinkA": 0, "shrinkB": 0, "mutation_scale": 8})

@@ -23,6 +23,7 @@
 #include "paper/paper.h"
 #include "scenarios/read_scenario.h"
 #include "simulate/run_text.h"
+#include "solids/flat_body.h"
 #include "units/geographic.h"
 
 namespace vericone {
@@ -61,13 +62,15 @@ void check_scene(const Json& fields, const std::string& file, scenario::Facts& f
   const scenes::Scene scene = input::scene_of(fields, file);
   const Pair pair = scene.pair();
   const Vector3d &v_a = scene.agent.velocity, &v_b = scene.obstacle.velocity;
-  const bool planar = scene.planar.has_value();
+  const bool planar = scene.planar.has_value(), flat = scene.in_plane && !planar;
   facts.add("scene", file);
   add_origin(fields, facts);
-  facts.add("agent", (planar ? body_words(scene.planar->agent) : body_words(scene.agent.placed)) + "; " +
-                         motion_words(v_a, planar));
-  facts.add("obstacle", (planar ? body_words(scene.planar->obstacle) : body_words(scene.obstacle.placed)) +
-                            "; " + motion_words(v_b, planar));
+  const auto words = [&](const scenes::SceneBody& body, const CombinedEllipse* conic) {
+    const std::string is = conic ? body_words(*conic) : flat ? body.name : body_words(body.placed);
+    return is + "; " + motion_words(body.velocity, scene.in_plane);
+  };
+  facts.add("agent", words(scene.agent, planar ? &scene.planar->agent : nullptr));
+  facts.add("obstacle", words(scene.obstacle, planar ? &scene.planar->obstacle : nullptr));
   add_notes(scene.agent.reading, facts);
   add_notes(scene.obstacle.reading, facts);
   facts.add("now", now_words(pair));
@@ -176,10 +179,13 @@ void check_body(const std::string& file, const Json& fields, const std::string& 
   facts.add("body", file);
   // A planar one has two numbers where others have three.
   const Json body = input::body_fields(named, "", path.parent_path());
-  const bool planar = body.contains("center") && body["center"].is_array() && body["center"].size() == 2;
+  const bool two = body.contains("center") && body["center"].is_array() && body["center"].size() == 2;
+  const bool flat = input::is_flat_word(body) || (two && body.contains("margin")), planar = two || flat;
   if (planar && !glb.empty())
     throw InputError("--glb", glb, "asked for of a body in space; of a scene in the plane cone writes one");
-  if (planar) {
+  if (flat) {
+    facts.add("is", input::read_flat_body(body, "").name);
+  } else if (planar) {
     facts.add("is", body_words(input::read_planar_body(body, "")));
   } else {
     const scenes::SceneBody read = input::read_body(body, "", path.parent_path());

@@ -3,6 +3,8 @@
 
 #include <vericone/cones/ellipsoids/clearance.h>
 #include <vericone/cones/pair.h>
+#include <vericone/cones/penetration.h>
+#include <vericone/geometry/error.h>
 #include <vericone/internal/cones/combined/nearest_points.h>
 #include <algorithm>
 #include <cmath>
@@ -65,7 +67,8 @@ void add_enclosed_time(Json& result, const Pair& pair, Verdict verdict, const Ei
 }
 
 /// Bodies of pieces: enclosed lengths and times, and where they meet.
-void add_enclosures(Json& result, const Pair& pair, Verdict verdict, const Eigen::Vector3d& v_a,
+template <typename AnyPair>
+void add_enclosures(Json& result, const AnyPair& pair, Verdict verdict, const Eigen::Vector3d& v_a,
                     const Eigen::Vector3d& v_b) {
   Json clearance = nullptr, around = nullptr, nearest = nullptr, time = nullptr, enclosure = nullptr,
        point = nullptr, normal = nullptr;
@@ -92,6 +95,12 @@ void add_enclosures(Json& result, const Pair& pair, Verdict verdict, const Eigen
   result["contact_normal"] = normal;
 }
 
+/// Of bodies that overlap now.
+Json penetration_json(const std::optional<Penetration>& depth) {
+  if (!depth) return nullptr;
+  return {{"depth", {depth->least, depth->most}}, {"normal", vector_json(depth->normal)}};
+}
+
 /// What reading left out of the obstacle: the body is then not quite what the file says.
 void add_left_out(Json& result, const scenes::SceneBody& obstacle) {
   if (!obstacle.reading) return;
@@ -104,9 +113,13 @@ void add_left_out(Json& result, const scenes::SceneBody& obstacle) {
 
 Json answer(const scenes::Scene& scene, bool with_rung, const Horizon& horizon) {
   const Eigen::Vector3d &v_a = scene.agent.velocity, &v_b = scene.obstacle.velocity;
-  if (scene.agent.ellipsoid() && scene.obstacle.ellipsoid())
-    return answer_of_ellipsoids(*scene.agent.ellipsoid(), *scene.obstacle.ellipsoid(), v_a, v_b, with_rung,
-                                horizon);
+  if (scene.agent.ellipsoid() && scene.obstacle.ellipsoid()) {
+    Json result = answer_of_ellipsoids(*scene.agent.ellipsoid(), *scene.obstacle.ellipsoid(), v_a, v_b,
+                                       with_rung, horizon);
+    if (result["verdict"] == to_string(Verdict::overlapping))
+      result["penetration"] = penetration_json(penetration(scene.agent.placed, scene.obstacle.placed));
+    return result;
+  }
   const Pair pair = scene.pair();
   const Verdict verdict = pair.verdict(v_a, v_b);
   Json result;
@@ -119,8 +132,28 @@ Json answer(const scenes::Scene& scene, bool with_rung, const Horizon& horizon) 
     add_enclosed_time(result, pair, verdict, v_a, v_b);
   } else {
     add_enclosures(result, pair, verdict, v_a, v_b);
+    // Raised bodies touch at every height at once.
+    if (scene.in_plane)
+      for (const char* field : {"contact_point", "contact_normal"})
+        if (!result[field].is_null()) result[field][2] = 0.0;
     add_left_out(result, scene.obstacle);
   }
+  if (verdict == Verdict::overlapping)
+    result["penetration"] = penetration_json(penetration(scene.agent.placed, scene.obstacle.placed));
+  return result;
+}
+
+Json slab_answer(const scenes::Scene& scene, const Slab& slab, const Horizon& horizon, bool with_rung) {
+  if (horizon.from > 0)
+    throw InputError("horizon", "[" + to_text(horizon.from) + ", " + to_text(horizon.until) + "]",
+                     "one from 0 on beside a half-space or a slab");
+  const SlabPair pair(scene.agent.placed, slab);
+  const Eigen::Vector3d &v_a = scene.agent.velocity, &v_b = scene.obstacle.velocity;
+  const Verdict verdict = pair.verdict(v_a, v_b);
+  Json result{{"verdict", to_string(pair.verdict(v_a, v_b, horizon.until))}};
+  if (with_rung) result["rung"] = to_string(Rung::exact);
+  add_enclosures(result, pair, verdict, v_a, v_b);
+  if (verdict == Verdict::overlapping) result["penetration"] = penetration_json(pair.penetration());
   return result;
 }
 

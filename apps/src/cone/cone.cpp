@@ -77,7 +77,9 @@ void run_planar_cone(const ConeCommand& options, const scenes::Scene& scene, std
   if (!options.picture_folder.empty()) folder.emplace(options.picture_folder, "--out");
   const PlanarCone cone = planar_cone(scene);
   if (folder && !std::isfinite(cone.found.sector.theta_b))
-    throw InputError("--out", options.picture_folder, "asked for a scene whose squared lengths are doubles");
+    throw InputError("--out", options.picture_folder,
+                     scene.planar ? "asked for a scene whose squared lengths are doubles"
+                                  : "asked for bodies that are apart: these have no cone to draw");
   if (options.json) {
     Json result = to_json(cone);
     result["answer"] = answer(scene, false);
@@ -147,6 +149,7 @@ void require_measurable(const scenes::Scene& scene) {
 }
 
 void cone_of_scene(const ConeCommand& options, const scenes::Scene& scene, std::ostream& out) {
+  if (scene.in_plane && !scene.planar) return run_planar_cone(options, scene, out);
   if (has_assembly_cone(scene)) return run_pieces_cone(options, scene, out);
   if (!scene.agent.quadric() || !scene.obstacle.quadric()) return run_pair_cone(options, scene, out);
   require_measurable(scene);

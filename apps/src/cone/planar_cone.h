@@ -4,6 +4,7 @@
 #include <vericone/internal/cones/combined/sector.h>
 #include <vericone/scenes/scene.h>
 #include <iosfwd>
+#include <optional>
 
 #include "json/json_forward.h"
 
@@ -11,7 +12,9 @@ namespace vericone {
 
 /// The sector of a planar scene with the source's y.
 struct PlanarCone {
-  CombinedSector found;
+  CombinedSector found;  // of other bodies than conics: without what is touched
+  /// Nothing: not decided. Of other bodies than conics angles are NaN unless they are apart.
+  std::optional<Relation> relation;
   ConeFunction function{};
   double seconds = 0;
 };

@@ -36,7 +36,7 @@ void print_verdict(const scenes::Scene& scene, std::ostream& out) {
   out << "verdict             " << to_string(verdict) << " (of the scene's velocities, "
       << verdict_kind(scene) << ")\n";
   if (verdict == Verdict::in || verdict == Verdict::on)
-    print_contact(*pair.contact(v_a, v_b), scene.planar.has_value(), out);
+    print_contact(*pair.contact(v_a, v_b), scene.in_plane, out);
   if (verdict == Verdict::out)
     if (const Miss miss = pair.miss(v_a, v_b); std::isfinite(miss.least)) {
       const double time = nearest_time(pair, v_a, v_b);

@@ -38,10 +38,32 @@ Json course(const scenes::Scene& scene, const BasicCombined<D>& agent, const Bas
   return result;
 }
 
+/// Of a polygon, a stadium or a body with a margin, where no points are known but those of a contact.
+Json flat_course(const scenes::Scene& scene) {
+  const Eigen::Vector3d &v_a = scene.agent.velocity, &v_b = scene.obstacle.velocity;
+  const Pair pair = scene.pair();
+  const Verdict verdict = pair.verdict(v_a, v_b);
+  Json result{{"velocity", vector_json(scene.relative_velocity().head<2>())},
+              {"verdict", to_string(verdict)}};
+  if (verdict == Verdict::out) {
+    const Miss miss = pair.miss(v_a, v_b);
+    result["miss_distance"] = miss.distance;
+    result["nearest_time"] = miss.time;
+  } else if (verdict == Verdict::in || verdict == Verdict::on) {
+    const auto contact = pair.contact(v_a, v_b);
+    if (!contact || !std::isfinite(contact->time)) return result;
+    result["contact_time"] = contact->time;
+    if (contact->point)
+      result["contact_point"] = vector_json((*contact->point - contact->time * v_b).head<2>());
+  }
+  return result;
+}
+
 }  // namespace
 
 Json course_json(const scenes::Scene& scene) {
   if (scene.planar) return course<2>(scene, scene.planar->agent, scene.planar->obstacle);
+  if (scene.in_plane) return flat_course(scene);
   return course<3>(scene, *scene.agent.quadric(), *scene.obstacle.quadric());
 }
 

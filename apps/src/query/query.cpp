@@ -17,6 +17,7 @@
 #include "input/motions.h"
 #include "input/scene.h"
 #include "json/json_value.h"
+#include "solids/slab_body.h"
 #include "work/threads.h"
 
 namespace vericone {
@@ -77,16 +78,30 @@ Json answer_of_motions(const Json& value, const scenes::Scene& scene, const inpu
   return result;
 }
 
+/// A slab is asked of straight motion alone.
+void require_plain(const Json& value, bool motions, bool certificate) {
+  const char* why = "left out beside a half-space or a slab";
+  for (const char* field : {"position_error", "velocity_error"})
+    if (value.contains(field)) throw InputError(field, input::quoted(value[field]), why);
+  if (motions) throw InputError("agent", "spin, acceleration or braking", why);
+  if (certificate) throw InputError("--certificate", "given", why);
+}
+
 Json answer_case(const Json& given, const Wanted& wanted, const Source& source) {
   Json value = given;
   const auto motions = input::take_motions(value);
+  const auto slab = input::take_slab(value);
   const Horizon horizon = input::read_horizon(value);
   const auto errors = input::read_errors(value, horizon);
   std::vector<std::string_view> also{"id", "position_error", "velocity_error", "horizon"};
   also.insert(also.end(), source.also.begin(), source.also.end());
   const scenes::Scene scene = input::read_engagement(value, source.velocities, also, source.folder);
+  if (slab) {
+    require_plain(value, motions.has_value(), wanted.certificate);
+    return slab_answer(scene, *slab, horizon, wanted.rung);
+  }
   if (motions) return answer_of_motions(value, scene, *motions, horizon, wanted);
-  if (errors && scene.planar)
+  if (errors && scene.in_plane)
     throw InputError("position_error, velocity_error", "given for bodies in the plane",
                      "left out, or the bodies in space");
   Json result = answer(scene, wanted.rung, horizon);

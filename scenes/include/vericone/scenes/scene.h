@@ -57,7 +57,8 @@ struct PlanarBodies {
 
 struct Scene {
   SceneBody agent, obstacle;
-  std::optional<PlanarBodies> planar = {};  // of a planar scene: as its file gives them
+  bool in_plane = false;                    // both are bodies of the plane, raised
+  std::optional<PlanarBodies> planar = {};  // as the file gives them, where both are conics without margins
 
   /// Prepared; a planar scene's by its bodies raised. Cost: docs/measured/pairs.md.
   [[nodiscard]] Pair pair() const;
