@@ -191,7 +191,7 @@ Json picture_json(const TracksFile& tracks, const CertifiedTracks& certified) {
 std::string write_picture(const TracksFile& tracks, const CertifiedTracks& certified,
                           const CertifyCommand& options, work::StagedFolder& folder) {
   write_whole(folder.path() / "certified.json", picture_json(tracks, certified).dump(1) + "\n");
-  if (options.figures) draw_figures("certified.py", folder.path());
+  if (options.figures) draw_figures("certify/certified.py", folder.path());
   std::string list;
   for (const auto& file : folder.publish({"certified.json", "certified.pdf", "certified.png"}))
     list.append(list.empty() ? "" : ", ").append(file.filename().string());

@@ -121,6 +121,22 @@ class Tracks(unittest.TestCase):
                 point[0] += 2 << claim["claim"]["tracks"][0].get("grid", 0)
         self.assertEqual(self.checked(self.write("damaged.json", json.dumps(claim))).returncode, 1)
 
+    def test_a_picture_and_its_data(self):
+        out = os.path.join(self.folder.name, "out")
+        done = run("certify", os.path.join(EXAMPLES, "tracks.yaml"), "--quiet", "--out", out)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertIn("certified.json", done.stdout)
+        with open(os.path.join(out, "certified.json"), encoding="utf-8") as file:
+            data = json.load(file)
+        self.assertEqual((len(data["bodies"]), len(data["pairs"]), data["required"]), (5, 9, 0.05))
+        self.assertEqual(data["pairs"][0]["there"], [0, 10])
+        self.assertEqual(len(data["bodies"][0]["positions"]), 400)
+        if os.path.exists("/usr/lib/python3/dist-packages/matplotlib"):
+            self.assertGreater(os.path.getsize(os.path.join(out, "certified.png")), 20000)
+        again = run("certify", os.path.join(EXAMPLES, "tracks.yaml"), "--quiet", "--out", out, "--no-figures")
+        self.assertEqual(again.returncode, 0)
+        self.assertEqual(os.listdir(out), ["certified.json"])
+
     def test_a_swarm(self):
         answer = self.certified(os.path.join(EXAMPLES, "swarm.yaml"))
         self.assertEqual((answer["verdict"], len(answer["pairs"]), len(answer["limits"])), ("apart", 66, 24))
