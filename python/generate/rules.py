@@ -91,7 +91,7 @@ LONG: set[str] = {f"{space}::{name}".removeprefix("::") for space, names in {
     "fitting": "check enclose fit hull_to_scan scan_to_hull volume enclosed_volume",
     "lidar": "MeshScene::MeshScene fuse raster scan spinning visible_part",
     "scanning": "look read_scan_scene scan_and_study study write_scan",
-    "scenario": "fly_campaign read_scenario read_tracks scenario_of_text tracks_of_text write_run",
+    "scenario": "campaign_rows fly_campaign read_scenario read_tracks scenario_of_text tracks_of_text write_run",
     "scenes": "read_body read_scene scene_of_text write_body write_scene",
     "simulation": "Arc::Arc certify fitted_track greatest Track::advance Vehicle::advance curves_of fly_trial largest_current prove prove_passage "
                   "reach run_tables simulate",

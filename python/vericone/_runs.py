@@ -4,8 +4,10 @@ to the same files where asked. They are attributes of the package: vericone.simu
 
 from __future__ import annotations
 
+import collections
 import contextlib
 import importlib
+import itertools
 import math
 import numbers
 import operator
@@ -19,6 +21,8 @@ import numpy as np
 import numpy.typing as npt
 
 if TYPE_CHECKING:
+    from concurrent.futures import Executor, Future
+
     from . import InputError, Placed, VisibleCone, files, fits, fitting, montecarlo, scanning, scenes, simulation
 
 __all__ = ["Campaign", "Scanned", "as_frame", "campaign", "fit", "load", "read_scenario", "read_scene", "read_table", "run_tables",
@@ -252,15 +256,58 @@ class Campaign(NamedTuple):
     finished: bool
 
 
+def _engagements(settings: montecarlo.Campaign, first: int, end: int, version: str) -> str:
+    """In a worker of an executor: rows of a campaign."""
+    here = importlib.import_module("vericone").__version__
+    if here != version:
+        raise RuntimeError(f"a worker has vericone {here}, who asks has {version}")
+    rows: str = _part("scenario").campaign_rows(settings, first, end)
+    return rows
+
+
+_AHEAD = 1000  # blocks that are with an executor: enough for some hundred workers, few enough for its memory
+
+
+@contextlib.contextmanager
+def _rows_by(executor: Executor | None, settings: montecarlo.Campaign) -> Iterator[Callable[[int, int], str] | None]:
+    """What C++ asks for one block of rows after the other."""
+    if executor is None:
+        yield None
+        return
+    if not callable(getattr(executor, "submit", None)):
+        raise _wrong_kind("executor", executor, "a concurrent.futures.Executor, or None")
+    workers = executor
+    version = importlib.import_module("vericone").__version__
+    waiting: collections.deque[Future[str]] = collections.deque()
+    begins: Iterator[int] = iter(())
+
+    def rows(first: int, end: int) -> str:
+        nonlocal begins
+        size = end - first
+        if not waiting:
+            begins = iter(range(first, settings.engagements, size))
+        for begin in itertools.islice(begins, _AHEAD - len(waiting)):
+            waiting.append(workers.submit(_engagements, settings, begin, min(begin + size, settings.engagements), version))
+        return waiting.popleft().result()
+
+    try:
+        yield rows
+    finally:
+        for future in waiting:
+            future.cancel()
+
+
 def campaign(settings: montecarlo.Campaign | None = None, *, out: PathLike | None = None, threads: int = 0,
-             progress: Progress | None = None, resume: bool = True) -> Campaign:
+             progress: Progress | None = None, resume: bool = True, executor: Executor | None = None) -> Campaign:
     """Random engagements of moving ellipsoids under every law, each with a proof of what became of it: `vericone
     campaign` (docs/measured/campaign.md). `settings` has their number, the seed, the laws and their limits (m/s^2, 1/s,
     m, s); `threads` how many work at once, 0 for all processors. 3 ms an engagement.
 
     `out`: a folder for engagements.csv, which grows as engagements.csv.partial: interrupted, the same call goes on
-    there, or begins anew without `resume`. `progress` is called with the share done; False stops. Raises InputError
-    naming a setting, or `out` where it holds an unfinished run of other settings."""
+    there, or begins anew without `resume`. `progress` is called with the share done; False stops. `executor`: who flies
+    them in place of threads, with the same result: a concurrent.futures.ProcessPoolExecutor, an
+    mpi4py.futures.MPIPoolExecutor, that of a dask client (docs/howto/many-machines.md). Raises InputError naming a
+    setting, or `out` where it holds an unfinished run of other settings."""
     module = _part("montecarlo")
     asked: montecarlo.Campaign = settings if settings is not None else module.Campaign()
     if not isinstance(asked, module.Campaign):
@@ -271,7 +318,9 @@ def campaign(settings: montecarlo.Campaign | None = None, *, out: PathLike | Non
     except TypeError:
         raise _wrong_kind("threads", threads, "an integer") from None
     folder = None if out is None else _path("out", out, "the path of a folder")
-    found = _part("scenario").fly_campaign(asked, out=folder, threads=threads, resume=resume, progress=_share_of(progress, 1))
+    with _rows_by(executor, asked) as rows:
+        found = _part("scenario").fly_campaign(asked, out=folder, threads=threads, resume=resume, rows=rows,
+                                               progress=_share_of(progress, 1))
     return Campaign(_array(found.table), found.summary, found.violations, found.finished)
 
 

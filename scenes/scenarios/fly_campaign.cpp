@@ -23,6 +23,7 @@ work::ResumableTable campaign_table(const montecarlo::Campaign& campaign,
 FlownCampaign fly_campaign(const montecarlo::Campaign& campaign, const CampaignOptions& options) {
   const std::vector<montecarlo::Flown> laws = laws_of(campaign);
   work::ResumableTable table = campaign_table(campaign, laws, threads_for(options.threads, "threads"));
+  table.rows = options.rows;
   std::optional<std::uint64_t> told;
   if (options.progress)
     table.progress = [&](std::uint64_t rows) {
@@ -53,6 +54,21 @@ FlownCampaign fly_campaign(const montecarlo::Campaign& campaign, const CampaignO
   found.summary = summarise(rows, laws);
   found.violations = violations(found.summary);
   return found;
+}
+
+std::string campaign_rows(const montecarlo::Campaign& campaign, std::uint64_t first, std::uint64_t end) {
+  if (!(first <= end && end <= campaign.engagements))
+    throw InputError("end", std::to_string(end),
+                     "between first, " + std::to_string(first) + ", and the engagements, " +
+                         std::to_string(campaign.engagements));
+  const std::vector<montecarlo::Flown> laws = laws_of(campaign);
+  const work::ResumableTable table = campaign_table(campaign, laws, 1);
+  std::string rows;
+  for (std::uint64_t i = first; i < end; ++i) {
+    checkpoint();
+    rows += table.row(i) + "\n";
+  }
+  return rows;
 }
 
 }  // namespace vericone::scenario

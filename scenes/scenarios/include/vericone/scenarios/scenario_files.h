@@ -65,6 +65,9 @@ struct CampaignOptions {
   bool resume = true;                             // go on with an unfinished table; otherwise it begins anew
   /// Called with the share done, 0 to 1, as rows come; false stops.
   std::function<bool(double)> progress = nullptr;
+  /// Where it is set, what gives the rows from `first` to before `end`, as campaign_rows() does, in place of
+  /// this process: called for one block after the other, from the thread of fly_campaign().
+  std::function<std::string(std::uint64_t first, std::uint64_t end)> rows = nullptr;
 };
 
 struct FlownCampaign {
@@ -80,5 +83,10 @@ struct FlownCampaign {
 /// unfinished run of other settings. Cost: 3 ms an engagement of four laws.
 [[nodiscard]] FlownCampaign fly_campaign(const montecarlo::Campaign& campaign,
                                          const CampaignOptions& options = {});
+
+/// The rows of engagements.csv from `first` to before `end`, which is at most all, each with a line break:
+/// what another process does for fly_campaign(). Throws InputError naming a setting, or "end".
+[[nodiscard]] std::string campaign_rows(const montecarlo::Campaign& campaign, std::uint64_t first,
+                                        std::uint64_t end);
 
 }  // namespace vericone::scenario
