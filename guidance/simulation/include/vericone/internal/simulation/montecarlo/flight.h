@@ -4,6 +4,7 @@
 #pragma once
 
 #include <vericone/simulation/montecarlo/campaign.h>
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
