@@ -8,37 +8,16 @@
 #include <cmath>
 #include <numbers>
 
+#include "geometry/files/rings.h"
 #include "support/random.h"
 
 namespace vericone::files {
 namespace {
 
 using Eigen::Vector2d;
-using Ring = std::vector<Vector2d>;
-
-/// Of corners that are small whole numbers: no rounding.
-double twice_area(const Ring& p) {
-  double sum = 0;
-  for (std::size_t i = 0; i < p.size(); ++i) {
-    const Vector2d &a = p[i], &b = p[(i + 1) % p.size()];
-    sum += a.x() * b.y() - a.y() * b.x();
-  }
-  return sum;
-}
 
 double turned(const Vector2d& a, const Vector2d& b, const Vector2d& c) {
   return (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x());
-}
-
-/// How often a ray from x, of no corner's height, crosses the boundary.
-bool crosses_odd(const Ring& p, const Vector2d& x) {
-  bool odd = false;
-  for (std::size_t i = 0; i < p.size(); ++i) {
-    const Vector2d &a = p[i], &b = p[(i + 1) % p.size()];
-    if ((a.y() > x.y()) == (b.y() > x.y())) continue;
-    if (a.x() + (x.y() - a.y()) / (b.y() - a.y()) * (b.x() - a.x()) > x.x()) odd = !odd;
-  }
-  return odd;
 }
 
 bool is_inside(const Polygon& polygon, const Vector2d& x) {

@@ -11,6 +11,7 @@
 #include <numeric>
 #include <span>
 
+#include "geometry/files/rings.h"
 #include "support/random.h"
 
 namespace vericone::files {
@@ -18,30 +19,9 @@ namespace {
 
 using Eigen::Vector2d;
 using Eigen::Vector3d;
-using Polygon = std::vector<Vector2d>;
-
-double twice_area(const Polygon& p) {
-  double sum = 0;
-  for (std::size_t i = 0; i < p.size(); ++i) {
-    const Vector2d &a = p[i], &b = p[(i + 1) % p.size()];
-    sum += a.x() * b.y() - a.y() * b.x();
-  }
-  return sum;
-}
-
-/// How often a ray from x, of no corner's height, crosses the boundary.
-bool is_inside(const Polygon& p, const Vector2d& x) {
-  bool inside = false;
-  for (std::size_t i = 0; i < p.size(); ++i) {
-    const Vector2d &a = p[i], &b = p[(i + 1) % p.size()];
-    if ((a.y() > x.y()) == (b.y() > x.y())) continue;
-    if (a.x() + (x.y() - a.y()) / (b.y() - a.y()) * (b.x() - a.x()) > x.x()) inside = !inside;
-  }
-  return inside;
-}
 
 /// `place`: into a plane of space; areas are told in the plane.
-void expect_cut(testing::Random& random, const Polygon& p, int place) {
+void expect_cut(testing::Random& random, const Ring& p, int place) {
   const auto in_space = [&](const Vector2d& x) -> Vector3d {
     switch (place) {
       case 0:
@@ -61,7 +41,7 @@ void expect_cut(testing::Random& random, const Polygon& p, int place) {
   const auto triangles = triangles_of(points, {face});
   ASSERT_EQ(triangles.size(), p.size() - 2);
   double sum = 0;
-  std::vector<Polygon> cut;
+  std::vector<Ring> cut;
   for (const auto& t : triangles) {
     cut.push_back({p[t[0]], p[t[1]], p[t[2]]});
     const double own = twice_area(cut.back());
@@ -72,8 +52,8 @@ void expect_cut(testing::Random& random, const Polygon& p, int place) {
   for (int i = 0; i < 100; ++i) {
     const Vector2d x(random.uniform(-30, 30), random.uniform(-30, 30));
     const auto holding =
-        std::count_if(cut.begin(), cut.end(), [&](const Polygon& t) { return is_inside(t, x); });
-    ASSERT_EQ(holding, is_inside(p, x));
+        std::count_if(cut.begin(), cut.end(), [&](const Ring& t) { return crosses_odd(t, x); });
+    ASSERT_EQ(holding, crosses_odd(p, x));
   }
 }
 
@@ -83,7 +63,7 @@ TEST(Triangles, OfRandomPolygonsAreThePolygons) {
   int dented = 0;
   for (int i = 0; i < testing::share(2000); ++i) {
     // About the origin, at whole coordinates, with corners on straight edges.
-    Polygon p;
+    Ring p;
     const int corners = random.integer(4, 24);
     for (int k = 0; k < corners; ++k) {
       const double angle = 2 * M_PI * k / corners, radius = random.uniform(4, 28);
@@ -107,20 +87,19 @@ TEST(Triangles, OfRandomPolygonsAreThePolygons) {
 
 TEST(Triangles, OfSlotsCombsSpiralsAndHoles) {
   testing::Random random(72);
-  const Polygon slot{{-3, -2}, {3, -2}, {3, 2}, {1, 2}, {1, -1}, {-1, -1}, {-1, 2}, {-3, 2}};
-  Polygon comb{{0, -1}};
+  const Ring slot{{-3, -2}, {3, -2}, {3, 2}, {1, 2}, {1, -1}, {-1, -1}, {-1, 2}, {-3, 2}};
+  Ring comb{{0, -1}};
   for (int i = 0; i < 12; ++i) comb.insert(comb.end(), {{2. * i, 5}, {2. * i + 1, 0}});
   comb.insert(comb.end(), {{24, 5}, {24, -1}});
-  const Polygon spiral{{0, 0}, {10, 0}, {10, 10}, {0, 10}, {0, 3}, {7, 3}, {7, 7}, {3, 7},
-                       {3, 5}, {5, 5},  {5, 4},   {1, 4},  {1, 9}, {9, 9}, {9, 1}, {0, 1}};
+  const Ring spiral{{0, 0}, {10, 0}, {10, 10}, {0, 10}, {0, 3}, {7, 3}, {7, 7}, {3, 7},
+                    {3, 5}, {5, 5},  {5, 4},   {1, 4},  {1, 9}, {9, 9}, {9, 1}, {0, 1}};
   // A square hole, joined to the outside by an edge that is passed both ways.
-  const Polygon hole{{-9, -9}, {9, -9}, {9, 9}, {-9, 9}, {-9, -9},
-                     {-3, -3}, {-3, 3}, {3, 3}, {3, -3}, {-3, -3}};
-  const Polygon straight{{0, 0}, {2, 0}, {4, 0}, {4, 4}, {2, 1}, {0, 4}, {0, 2}};
-  for (const Polygon& shape : {slot, comb, spiral, hole, straight})
+  const Ring hole{{-9, -9}, {9, -9}, {9, 9}, {-9, 9}, {-9, -9}, {-3, -3}, {-3, 3}, {3, 3}, {3, -3}, {-3, -3}};
+  const Ring straight{{0, 0}, {2, 0}, {4, 0}, {4, 4}, {2, 1}, {0, 4}, {0, 2}};
+  for (const Ring& shape : {slot, comb, spiral, hole, straight})
     for (int turned = 0; turned < int(shape.size()); ++turned)
       for (const bool back : {false, true}) {
-        Polygon p = shape;
+        Ring p = shape;
         std::rotate(p.begin(), p.begin() + turned, p.end());
         if (back) std::reverse(p.begin(), p.end());
         SCOPED_TRACE(::testing::Message()
