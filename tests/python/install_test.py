@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-MOST_BYTES = 22_000_000  # of the wheel
+MOST_BYTES = 24_000_000  # of the wheel, 22.1 million now: notices symbols for debuggers, or a library that is there twice
 
 pytestmark = pytest.mark.skipif("VERICONE_PRELOAD" in os.environ, reason="a build with sanitizers is not installed")
 
