@@ -43,7 +43,8 @@ class Completion(unittest.TestCase):
             self.assertIn("--help", offered)
 
     def test_kinds_of_schemas(self):
-        self.assertEqual(sorted(self.words("schema", "")), ["body", "claims", "figures", "pursuit", "scan", "scenario", "scene", "tracks"])
+        self.assertEqual(sorted(self.words("schema", "")), ["body", "claims", "figures", "population", "pursuit", "scan", "scenario", "scene",
+                                                           "tracks"])
         self.assertEqual(self.words("schema", "sc"), ["scene", "scenario", "scan"])
 
     def test_files_are_left_to_bash(self):
