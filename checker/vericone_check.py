@@ -785,9 +785,15 @@ def passage(m, read):
     for start, end in zip(times, times[1:]):
         x, p = (placed(side.track, start, end, start)[0] for side in m.sides)
         holds((Form([read.room ** 2]) - (x - p) @ (x - p)).not_negative(), f"within {say(read.room)} from {say(start)}")
+    corners = [corner for *_, a, b in map(m.obstacle.body.points, m.obstacle.group) for corner in (a, b)]
     for side, t in ((side, t) for side in m.sides for t in times[1:-1]):
-        jump = instant(side, t, m.t0)[0] - instant(side, t, t)[0]
-        holds(jump @ jump <= (2 * side.track.radius) ** 2, f"{side.who}: no jump at {say(t)}")
+        for x in [zero(3), *(corners if side is m.obstacle else [])]:  # a wall could turn over
+            jump = at(x, *instant(side, t, m.t0)) - at(x, *instant(side, t, t))
+            holds(jump @ jump <= (2 * side.track.radius) ** 2, f"{side.who}: no jump at {say(t)}")
+
+def at(x, place, q):
+    """Where a body's point x is."""
+    return place + unturned(V((q[0], *-V(q[1:]))), x)[0] * (1 / (q @ q))
 
 def chords(m, read):
     """The control points of the way are so near to the obstacle's core that all of the agent is in its margin."""
@@ -827,7 +833,7 @@ def near(m, read):
         for away in unit(3) if depth and not weights else ():  # the ball is within the octahedron of x +- 2 depth e_i
             side.contains(x + away * (2 * depth), k)
             side.contains(x - away * (2 * depth), k)
-        way += (own or place + unturned(V((q[0], *-V(q[1:]))), x)[0] * (1 / (q @ q))) * sign
+        way += (own or at(x, place, q)) * sign
         room += depth - side.track.radius
     holds(room >= 0 and way @ way <= room ** 2, f"{say(way)} is no longer than {say(room)}")
 

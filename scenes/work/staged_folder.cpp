@@ -58,7 +58,9 @@ struct StagedFolder::Held {
 
   ~Held() {
     clear();
-    if (lock >= 0) close(lock);
+    if (lock < 0) return;
+    flock(lock, LOCK_UN);  // processes forked meanwhile, as by an executor of Python, have it open too
+    close(lock);
   }
 
   void clear() const {

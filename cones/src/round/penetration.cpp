@@ -20,13 +20,15 @@ using Eigen::Vector3d;
 constexpr double kTolerance = 0x1p-40;
 constexpr int kSteps = 1000;
 
-/// The body in the world; nothing where it is none of those that have pieces.
+/// The body turned as in the world, and not moved there: positions are not rounded. Nothing where it is none
+/// of those that have pieces.
 std::optional<Convex> convex_of(const Placed& placed) {
   const Body& body = placed.body;
-  if (const Convex* convex = body.convex()) return in_world(*convex, placed.pose);
-  if (const HullBody* hull = body.hull()) return Convex::rounded(in_world(*hull, placed.pose), 0);
+  const Pose turned{Vector3d::Zero(), placed.pose.rotation};
+  if (const Convex* convex = body.convex()) return in_world(*convex, turned);
+  if (const HullBody* hull = body.hull()) return Convex::rounded(in_world(*hull, turned), 0);
   if (const auto* quadric = body.quadric(); quadric && quadric->is_ellipsoid())
-    return Convex::rounded(in_world(quadric->ellipsoid(), placed.pose), 0);
+    return Convex::rounded(in_world(quadric->ellipsoid(), turned), 0);
   return std::nullopt;
 }
 
@@ -164,7 +166,7 @@ namespace vericone {
 std::optional<Penetration> penetration(const Placed& agent, const Placed& obstacle) {
   const auto a = round::convex_of(agent), b = round::convex_of(obstacle);
   if (!a || !b) return std::nullopt;
-  RoundScene scene(*a, Eigen::Vector3d::Zero(), *b, Eigen::Vector3d::Zero());
+  RoundScene scene(*a, agent.pose.position, *b, obstacle.pose.position);
   if (!scene.usable) return std::nullopt;
   const double margin = std::exchange(scene.margin, 0.0);
   const round::Difference k(scene);

@@ -122,6 +122,11 @@ Columns columns_of(const simulation::Table& table, const std::string& file) {
   if (!all || found.encounter->text || (found.weight && found.weight->text) || !found.body->text)
     throw InputError(file, "other columns",
                      "columns encounter (numbers), body (names), t, x, y, z, and maybe vx, vy, vz, weight");
+  for (const simulation::Column& column : table.columns)
+    if (&column != found.encounter && &column != found.body && &column != found.weight &&
+        std::find(found.numbers.begin(), found.numbers.end(), &column) == found.numbers.end())
+      throw InputError(file, "column " + plain_text(column.name),
+                       "columns encounter, body, t, x, y, z, and maybe vx, vy, vz, weight");
   return found;
 }
 
@@ -180,10 +185,15 @@ EncounterSet of_table(const std::string& file, const Scenario& scenario) {
   for (std::size_t e = 0; e < all->size(); ++e) {
     FlownEncounter& encounter = (*all)[e];
     encounter.duration = std::numeric_limits<double>::infinity();
+    double begin = 0;
     for (std::size_t i = 0; i < encounter.ways.size(); ++i) {
       const std::string what = name + ", encounter " + to_text(numbers[e]) + ", " + scenario.bodies[i].name;
       Way& way = encounter.ways[i];
       if (way.times.empty()) throw InputError(what, "no rows", "a row or more of each body");
+      if (i == 0) begin = way.times.front();
+      if (way.times.front() != begin)
+        throw InputError(what + ", t", to_text(way.times.front()),
+                         "at first that of " + scenario.bodies[0].name + ", " + to_text(begin));
       complete(way, given, what);
       const double last = way.times.back();
       encounter.duration = std::min(encounter.duration, last > 0 ? last : scenario.duration);
