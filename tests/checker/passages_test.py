@@ -136,6 +136,22 @@ class DamagedPassages(unittest.TestCase):
                 Fraction(x) == 0 for i, row in enumerate(claim["bodies"][0]["shape"]) for j, x in enumerate(row) if i != j)
         self.attacked(example("chords"), true_stay, plain)
 
+    def test_a_wall_that_turns_over_is_no_passage(self):
+        """A ball at rest, and a wall that is turned over between two segments of its track: as a set it is the same."""
+        plane = [[0, 0, 1], 1, ["1/2"], [0]]
+        document = {"format": "vericone-certificate", "version": 1,
+                    "claim": {"says": "passed", "from": 0, "to": 2, "pair": [0, 1], "along": 1,
+                              "bodies": [{"kind": "ball", "center": [0, 0, 0], "radius": "1/2"},
+                                         {"kind": "wall", "outline": [[1, -1], [1, 1], [-1, 1], [-1, -1]], "extent": 8}],
+                              "tracks": [{"times": [0, 2], "positions": [[[0, 0, -3]]], "radius": "1/10"},
+                                         {"times": [0, 1, 2], "positions": [[[0, 0, 0]]] * 2,
+                                          "turns": [[[1, 0, 0, 0]], [[0, 1, 0, 0]]], "radius": "1/100"}]},
+                    "proof": {"rule": "through", "room": 4, "reach": "1/2",
+                              "proof": {"rule": "pieces", "times": [0, 1, 2], "planes": [plane] * 2}}}
+        code, said = status(document)
+        self.assertEqual(code, 1, said)
+        self.assertIn("obstacle: no jump at 1", said)
+
     def test_random_passages(self):
         """Balls that fly through a turning square, at random: the checker takes none that a sample refutes."""
         seen = {0: 0, 1: 0, 2: 0}

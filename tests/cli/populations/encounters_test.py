@@ -6,6 +6,7 @@ import json
 import math
 import os
 import random
+import re
 import sys
 import tempfile
 import unittest
@@ -201,6 +202,9 @@ class Encounters(unittest.TestCase):
             good = f.read()
         for text, says in ((good.replace("intruder", "intrudor"), "row 3, body: got intrudor, must be a name of the"),
                            (good.replace(",60,", ",0,"), "encounter 0, agent: got times that do not ascend, must be asc"),
+                           (good.replace("weight", "wieght"), "got column wieght, must be columns encounter, body, t, x, y, z, and maybe"),
+                           (re.sub(r"(?m)^0,intruder,([^,]*),0,", r"0,intruder,\1,10,", good),
+                            "encounter 0, intruder, t: got 10, must be at first that of"),
                            (good.replace("z [m]", "height [m]"), "got other columns, must be columns encounter"),
                            (good.replace("x [m]", "x [kg]"), "x: got "),
                            (good.splitlines()[0] + "\n", "got "),

@@ -138,6 +138,14 @@ TEST(Penetration, IsThatOfClosedForms) {
   }
 }
 
+TEST(Penetration, DoesNotRoundPositions) {
+  for (const double far : {1e5, 1e9, 1e14}) {
+    const Vector3d a(0, far, -far), b = a + Vector3d(0, 0, 1);
+    expect_depth(at(Convex::capsule(1, 0.2), a), at(Convex::capsule(1, 0.2), b), 1 + 0.2, "capsules");
+    expect_depth(at(Convex::box({1, 1, 0.7}), a), at(Convex::box({1, 1, 0.7}), b), 2 * 0.7 - 1, "boxes");
+  }
+}
+
 TEST(Penetration, ThereIsNoneOfBodiesThatAreApart) {
   EXPECT_FALSE(
       penetration(at(Convex::cylinder(1, 2), Vector3d::Zero()), at(Convex::cone(1, 2), {2.1, 0, 0})));

@@ -425,6 +425,9 @@ def files(ask: Ask) -> None:
     ask("files.read_points", here / "cloud.ply")
     ask("files.triangle_mesh", v.files.read_points(write(here / "tetrahedron.obj", OBJ)))
     ask("files.triangles_of", CORNERS, [[0, 1, 2, 3]])
+    dent = v.files.Polygon(outline=[[0, 0], [4, 0], [4, 4], [2, 1], [0, 4]])
+    ask("files.convex_pieces", dent)
+    ask("files.raised", dent, 4.0)
     ask("files.are_collinear", [0, 0, 0], [1, 1, 1], [2, 2, 2])
 
 
