@@ -281,7 +281,7 @@ Hdf5Reader::Hdf5Reader(const std::string& file) {
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
   std::string where;
   const auto refuse = [&](const std::string& got) {
-    throw InputError(plain_text(file) + where, got, "a table that vericone rows wrote");
+    throw InputError(plain_text(file) + where, got, "a table that vericone-rows wrote");
   };
   const hid_t opened = H5Fopen(file.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
   if (opened < 0) refuse("an HDF5 file that is cut off or damaged");
@@ -330,7 +330,7 @@ std::vector<Cells> Hdf5Reader::read(std::uint64_t first) const {
     const auto refuse = [&](const std::string& got) {
       throw InputError(plain_text(file_->name) + ": column " + plain_text(column.name) + ", rows " +
                            std::to_string(first + 1) + " to " + std::to_string(first + n),
-                       got, "as vericone rows wrote them");
+                       got, "as vericone-rows wrote them");
     };
     Cells& cells = all[k];
     void* to = nullptr;

@@ -224,7 +224,7 @@ Found look_hdf5(const std::string& file, OutputFile* out, Progress& progress) {
         if (kinds[k].cell == Cell::text && !is_cell(std::string_view(text).substr(begin)))
           throw InputError(
               plain_text(file) + ": column " + kinds[k].name + ", row " + std::to_string(first + i + 1),
-              "bytes that are no cell of a table", "as vericone rows wrote them");
+              "bytes that are no cell of a table", "as vericone-rows wrote them");
         text += k + 1 < block.size() ? ',' : '\n';
       }
     if (out) out->write(text);

@@ -179,9 +179,9 @@ class Rows(unittest.TestCase):
             packed = f.read()
         for k in range(1, 8):
             self.write("cut.h5", packed[:len(packed) * k // 8])
-            self.refused("cut.h5", "must be a table that vericone rows wrote")
+            self.refused("cut.h5", "must be a table that vericone-rows wrote")
         self.write("wrong.h5", packed[:8] + bytes(2000))
-        self.refused("wrong.h5", "must be a table that vericone rows wrote")
+        self.refused("wrong.h5", "must be a table that vericone-rows wrote")
         # Compressed bytes have a sum of their own, so what is damaged there is found.
         middle = len(packed) * 3 // 4
         self.write("flipped.h5", packed[:middle] + bytes(b ^ 255 for b in packed[middle:middle + 64]) + packed[middle + 64:])
