@@ -163,7 +163,8 @@ int run_swarm(const SwarmCommand& command, std::ostream& out) {
     } catch (const InputError& error) {
       if (error.field() == "name") throw InputError("start", error.value(), error.requirement());
       for (const char* name : {"agents", "step", "lost", "duration", "sample"})
-        if (error.field() == name) throw InputError(std::string("--") + name, error.value(), error.requirement());
+        if (error.field() == name)
+          throw InputError(std::string("--") + name, error.value(), error.requirement());
       throw;
     }
   };
