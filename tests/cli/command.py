@@ -9,6 +9,16 @@ VERICONE = os.path.abspath(os.environ["VERICONE"])
 SOURCE = os.environ["VERICONE_SOURCE"]
 
 
+def contents(folder):
+    """Of a folder's files by name, but of how it was made."""
+    found = {}
+    for name in sorted(os.listdir(folder)):
+        if name != "provenance.json":
+            with open(os.path.join(folder, name), "rb") as f:
+                found[name] = f.read()
+    return found
+
+
 def run(*arguments, **options):
     return subprocess.run([VERICONE, *arguments], capture_output=True, text=True, check=False, **options)
 

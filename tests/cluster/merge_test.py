@@ -14,7 +14,7 @@ import time
 import unittest
 
 sys.path.insert(0, os.path.join(os.path.dirname(__file__), "..", "cli"))
-from command import SOURCE, VERICONE, ball, engagement, run
+from command import SOURCE, VERICONE, ball, contents, engagement, run
 
 SCENARIO = os.path.join(SOURCE, "docs/examples/scenarios/noise.yaml")
 TETRAHEDRON = "OFF\n4 4 0\n0 0 0\n2 0 0\n0 3 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n"
@@ -26,17 +26,6 @@ def command(name, scan=""):
             "combined": ["accuracy", "-N", "7", "--obstacle", "star", "--planes", "4,8"],
             "scans": ["accuracy", "-N", "9", "--planes", "4,8", "--scan", scan, "--approaches", "5"],
             "trials": ["trials", SCENARIO, "-N", "9"]}[name]
-
-
-def contents(folder):
-    """Of a folder's files by name, but of how it was made."""
-    files = {}
-    for name in sorted(os.listdir(folder)):
-        if name == "provenance.json":
-            continue
-        with open(os.path.join(folder, name), "rb") as f:
-            files[name] = f.read()
-    return files
 
 
 class Merge(unittest.TestCase):

@@ -13,8 +13,8 @@ import time
 import unittest
 
 sys.path.insert(0, os.path.dirname(__file__))
-from merge_test import TETRAHEDRON, command, contents
-from command import SOURCE, VERICONE, run
+from merge_test import TETRAHEDRON, command
+from command import SOURCE, VERICONE, contents, run
 
 PROGRAM = os.path.join(os.path.dirname(VERICONE), "vericone-mpi")
 PURSUIT = os.path.join(SOURCE, "docs/examples/pursuits/two.yaml")

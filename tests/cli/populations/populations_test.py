@@ -10,23 +10,13 @@ import tempfile
 import unittest
 
 sys.path.insert(0, os.path.join(os.path.dirname(__file__), ".."))
-from command import SOURCE, VERICONE, run
+from command import SOURCE, VERICONE, contents, run
 
 BALLS = ("agent: {center: [0, 0, 0], semi_axes: [1, 1, 1]}\n"
          "obstacle: {center: [1000, 0, 0], semi_axes: [2, 2, 2]}\nagent_velocity: [100, 0, 0]\n")
 FIXED = BALLS + "drawn: {agent: {vy: {normal: [0, 1]}, vz: {normal: [0, 1]}}}\n"
 RARE = (BALLS + "drawn: {obstacle: {y: {normal: [0, 2121.319]}, z: {normal: [0, 2121.319]}}}\n"
         "proposal: {obstacle: {y: {normal: [0, 3]}, z: {normal: [0, 3]}}}\nper_hour: 20\n")
-
-
-def contents(folder):
-    """Of a folder's files by name, but of how it was made."""
-    found = {}
-    for name in sorted(os.listdir(folder)):
-        if name != "provenance.json":
-            with open(os.path.join(folder, name), "rb") as f:
-                found[name] = f.read()
-    return found
 
 
 class Populations(unittest.TestCase):
