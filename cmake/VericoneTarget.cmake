@@ -10,8 +10,26 @@ endif()
 # ccache and mold are used where they are installed; neither is needed. ccache keeps what is compiled with a
 # precompiled header only when told that the macros it was made with do not change behind its back.
 find_program(VERICONE_CCACHE ccache)
-if(VERICONE_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
-  set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env CCACHE_SLOPPINESS=pch_defines,time_macros ${VERICONE_CCACHE})
+set(launcher "")
+if(VERICONE_CCACHE)
+  list(APPEND launcher CCACHE_SLOPPINESS=pch_defines,time_macros ${VERICONE_CCACHE})
+endif()
+# On huge pages g++ takes a seventh less time; most kernels give them only to those who ask (docs/howto/building.md).
+set(policy "")
+if(EXISTS /sys/kernel/mm/transparent_hugepage/enabled)
+  file(READ /sys/kernel/mm/transparent_hugepage/enabled policy)
+endif()
+if(policy MATCHES "\\[madvise\\]" AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_SIZEOF_VOID_P EQUAL 8
+   AND NOT CMAKE_CROSSCOMPILING)
+  set(pages ${PROJECT_BINARY_DIR}/huge_pages.so)
+  execute_process(COMMAND ${CMAKE_C_COMPILER} -O2 -shared -fPIC -o ${pages} ${CMAKE_CURRENT_LIST_DIR}/huge_pages.c
+    RESULT_VARIABLE unmade ERROR_QUIET)
+  if(NOT unmade)
+    list(PREPEND launcher LD_PRELOAD=${pages} GLIBC_TUNABLES=glibc.malloc.hugetlb=1)
+  endif()
+endif()
+if(launcher AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env ${launcher})
 endif()
 find_program(VERICONE_MOLD mold)
 if(VERICONE_MOLD AND NOT CMAKE_CROSSCOMPILING)
