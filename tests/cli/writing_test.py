@@ -20,6 +20,7 @@ from hostile_test import SCENARIO, SCENE, VERICONE, InFolder
 
 PROGRAMS = os.environ.get("VERICONE_PROGRAMS", "fit scan track verify").split()
 KILLS = int(os.environ.get("VERICONE_KILLS", "2"))
+LONG_CAMPAIGN = os.environ.get("VERICONE_CAMPAIGN") == "long"
 
 MESH = "OFF\n4 4 0\n0 0 0\n3 0 0\n0 2 0\n0 0 1\n3 0 1 2\n3 0 1 3\n3 0 2 3\n3 1 2 3\n"
 BALL = {"center": [-9, 1, 1], "semi_axes": [0.5, 0.5, 0.5]}
@@ -308,10 +309,12 @@ class WritersDraw(InPreparedFolder):
 
 class Interruptions(InPreparedFolder):
     def test_long_work_ends_at_once(self):
-        for name, (words, sign) in LONG.items():
+        signals = (signal.SIGINT, signal.SIGTERM)
+        for turn, (name, (words, sign)) in enumerate(LONG.items()):
             if not there(words):
                 continue
-            for sent in (signal.SIGINT, signal.SIGTERM):
+            # One handler takes both (scenes/work/interrupt.cpp): a command has one of them, in the campaign both.
+            for sent in signals if LONG_CAMPAIGN else signals[turn % 2:turn % 2 + 1]:
                 with self.subTest(command=name, sent=sent), self.start(words, stdin=subprocess.PIPE) as process:
                     if sign:
                         while sign not in (line := process.stderr.readline()):

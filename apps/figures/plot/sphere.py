@@ -55,9 +55,8 @@ class Map:
 
     def descend(self, directions: Array, levels: int) -> Array:
         """Numbers of the cells of each level that contain the directions."""
-        inside = [np.min([directions @ np.cross(a, b), directions @ np.cross(b, c), directions @ np.cross(c, a)],
-                         axis=0) for a, b, c in self.faces]
-        number = np.argmax(inside, axis=0)
+        # A direction is in the face of the regular icosahedron whose middle is nearest.
+        number = np.argmax(directions @ self.faces.sum(axis=1).T, axis=1)
         a, b, c = (self.faces[number][:, k] for k in range(3))
         result = [number]
         for _ in range(levels):

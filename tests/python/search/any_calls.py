@@ -311,7 +311,7 @@ class Calls:
                           and not (isinstance(c.target, type) and issubclass(c.target, (enum.Enum, BaseException)))]
         self.functions = {c.name for c in self.callables if c.kind != "property" and c.target != "replace"}
         # Called most; what they take comes from the others.
-        self.favoured = [c for c in self.callables if c.name.startswith(most)]
+        self.favoured = [c for c in self.callables if c.name.startswith(tuple(most.split(",")))]
         self.pool: dict[str, list[Any]] = {}
         self.complete = False  # nothing comes to the pool any more
         self.faults: dict[str, str] = {}
@@ -524,7 +524,7 @@ def main() -> int:
     parser.add_argument("--calls", type=int, default=10_000)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--hypothesis", type=int, default=0, help="examples that hypothesis chooses afterwards")
-    parser.add_argument("--most", default="", help="what the names begin with that are called most: guidance.")
+    parser.add_argument("--most", default="", help="what the names begin with that are called most, by commas: guidance.,lidar.")
     parser.add_argument("--without", nargs="*", default=[], help="names that are not called, to look for further faults")
     parser.add_argument("--bare", action="store_true", help="begin without objects: of a package that has none of vericone's")
     parser.add_argument("--log", default="", help="file for the call that is being made")

@@ -80,6 +80,7 @@ def main() -> int:
         calls, draw = Calls(), random.Random(options.seed)
         while calls.calls < options.calls:
             calls.make(draw)
+        gc.freeze()  # what is there by now need not be looked at by every collection below
         leaks: dict[str, float] = {}
         count = 0
         for (name, answered), examples in sorted(calls.examples.items(), key=lambda item: item[0]):
