@@ -5,15 +5,13 @@ import copy
 import json
 import math
 import os
-import subprocess
 import sys
 import tempfile
 import unittest
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from command import SOURCE, run  # noqa: E402
+from command import SOURCE, check_certificates, run  # noqa: E402
 
-CHECKER = os.path.join(SOURCE, "checker", "vericone_check.py")
 EXAMPLES = os.path.join(SOURCE, "docs", "examples", "scenarios")
 PAPERS = os.path.join(SOURCE, "papers", "dhal2022", "scenarios")
 
@@ -76,7 +74,7 @@ class RunCertificates(unittest.TestCase):
         return path
 
     def check(self, path):
-        return subprocess.run([sys.executable, CHECKER, path], capture_output=True, text=True, check=False)
+        return check_certificates(path)
 
     def status(self, document):
         path = os.path.join(self.folder, "damaged.json")

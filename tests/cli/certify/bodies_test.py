@@ -6,15 +6,13 @@ import json
 import math
 import os
 import random
-import subprocess
 import sys
 import tempfile
 import unittest
 
 sys.path[:0] = [os.path.dirname(os.path.abspath(__file__)), os.path.dirname(os.path.dirname(os.path.abspath(__file__)))]
-from command import SOURCE, run  # noqa: E402
+from command import SOURCE, check_certificates, run  # noqa: E402
 
-CHECKER = os.path.join(SOURCE, "checker", "vericone_check.py")
 EXAMPLES = os.path.join(SOURCE, "docs", "examples", "scenarios")
 PAPERS = os.path.join(SOURCE, "papers", "dhal2022", "scenarios")
 BOX = "[[-0.4, -0.2, -0.1], [0.4, -0.2, -0.1], [-0.4, 0.2, -0.1], [0.4, 0.2, -0.1], [-0.4, -0.2, 0.1], [0.4, 0.2, 0.1]]"
@@ -40,7 +38,7 @@ class Bodies(unittest.TestCase):
         return path
 
     def check(self, path):
-        done = subprocess.run([sys.executable, CHECKER, path], capture_output=True, text=True, check=False)
+        done = check_certificates(path)
         return done.returncode, done.stdout
 
     def status(self, document):

@@ -4,16 +4,14 @@ which shares nothing with it. Environment as for command.py."""
 import json
 import math
 import os
-import subprocess
 import sys
 import tempfile
 import unittest
 
 sys.path[:0] = [os.path.dirname(os.path.abspath(__file__)), os.path.dirname(os.path.dirname(os.path.abspath(__file__)))]
 import certify_cases  # noqa: E402
-from command import SOURCE, VERICONE, run  # noqa: E402
+from command import SOURCE, VERICONE, check_certificates, run  # noqa: E402
 
-CHECKER = os.path.join(SOURCE, "checker", "vericone_check.py")
 EXAMPLES = os.path.join(SOURCE, "docs", "examples", "tracks")
 
 
@@ -34,7 +32,7 @@ class Tracks(unittest.TestCase):
         return json.loads(result.stdout)
 
     def checked(self, path):
-        return subprocess.run([sys.executable, CHECKER, path], capture_output=True, text=True, check=False)
+        return check_certificates(path)
 
     def test_the_same_flight_in_every_form(self):
         """x = t^2 / 2 for 4 s past a ball at rest 2.25 m aside, radii 1 and 1: 0.25 m between at the nearest."""
