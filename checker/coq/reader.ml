@@ -112,7 +112,7 @@ let rec body folder ~moves ~inner value : (C.q C.body * (string * t) list) =
   let kind = kind_of "a body" value in
   let needed, allowed = match List.assoc_opt kind body_fields with
     | Some known -> known
-    | None when List.mem kind ["octree"; "quadrics"; "convex"] -> unknown ("the kind " ^ kind)
+    | None when List.mem kind ["octree"; "quadrics"; "convex"; "wall"] -> unknown ("the kind " ^ kind)
     | None -> malformed ("an unknown kind of body: " ^ kind) in
   let read = fields ("the " ^ kind) (("kind" :: needed) @ (if moves then ["velocity"] else [])) ("center" :: allowed) value in
   let p = match optional "center" read with Some c -> vector c | None -> origin in
@@ -532,7 +532,7 @@ let statement folder value =
     | "apart" -> run folder claim (field "proof" read)
     | "meet" -> meeting folder claim (field "proof" read)
     | "inside" -> fit folder claim (field "proof" read)
-    | "depends" | "near" -> unknown ("the claim " ^ says)
+    | "depends" | "near" | "passed" | "stays" -> unknown ("the claim " ^ says)
     | _ -> malformed ("an unknown claim: " ^ says) in
   (match answer with
    | Some members ->
