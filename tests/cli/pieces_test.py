@@ -289,8 +289,10 @@ class Pieces(unittest.TestCase):
         for name, scene in scenes.items():
             with self.subTest(name):
                 out = os.path.join(self.folder, name)
-                self.cone(scene, "--picture", out, "--map", "0.1", text=True)
-                for picture in ("cone.png", "cone.pdf", "cone_map.png", "cone_map.pdf"):
+                # A map looks the same from all bodies but for a course in it.
+                mapped = ["--map", "0.1"] if name in ("outside", "map") else []
+                self.cone(scene, "--picture", out, *mapped, text=True)
+                for picture in ("cone.png", "cone.pdf", *(["cone_map.png", "cone_map.pdf"] if mapped else [])):
                     with open(os.path.join(out, picture), "rb") as f:
                         self.assertIn(f.read(4), (b"%PDF", b"\x89PNG"))
 

@@ -58,8 +58,8 @@ WRITERS = {
     "claims": ["claims", "5.4.2", "--quiet"],
     "figures": ["figures", "5.6", "--quiet"],
     "fit": ["fit", "ball.xyz", "--shape", "ellipsoid", "--no-figures", "--quiet"],
-    "pursue": ["pursue", "pursuit.yaml", "--camera", "exact", "--duration", "400", "--no-figures", "--quiet"],
-    "pursue from starts": ["pursue", "pursuit.yaml", "--camera", "exact", "--duration", "200", "--starts", "8", "--threads", "1",
+    "pursue": ["pursue", "pursuit.yaml", "--camera", "exact", "--duration", "150", "--no-figures", "--quiet"],
+    "pursue from starts": ["pursue", "pursuit.yaml", "--camera", "exact", "--duration", "80", "--starts", "8", "--threads", "1",
                            "--no-figures", "--quiet"],
     "scan": ["scan", "scan.yaml", "--levels", "2", "--no-figures", "--quiet"],
     "track": ["track", "frames", "--box", "8,16,16,10", "--no-figures", "--quiet"],
@@ -293,8 +293,10 @@ class WritersDraw(InPreparedFolder):
                 continue
             with self.subTest(command=name):
                 shutil.rmtree(self.out, ignore_errors=True)
-                result = self.run_limited(*(w for w in words if w != "--no-figures"), "--out", "out", preexec_fn=None,
-                                          env=active)
+                left_out = ["--no-figures"]
+                if name == "cone of pieces":
+                    left_out += ["--map", "0.05"]  # the cone's is drawn by the same script
+                result = self.run_limited(*(w for w in words if w not in left_out), "--out", "out", preexec_fn=None, env=active)
                 self.assertEqual((result.returncode, result.stderr), (0, ""))
                 found, unfinished = self.listing()
                 # What a camera saw is no drawing.
