@@ -28,7 +28,14 @@ hues = plt.get_cmap("viridis")(np.linspace(0, 0.95, count))
 for axis, (u, v) in zip(axes, (("x", "y"), ("x", "z"))):
     low_u, high_u = places[u].min() - 5, places[u].max() + 5
     low_v, high_v = places[v].min() - 5, places[v].max() + 5
-    for k in range(len(obstacles.get("x", ()))):
+    bodies = len(obstacles.get("x", ()))
+    if bodies > 2000:  # a map: how much of it stands behind each place
+        amounts, edges_u, edges_v = np.histogram2d(obstacles[u], obstacles[v], bins=200,
+                                                   weights=obstacles["half_x"] * obstacles["half_y"] * obstacles["half_z"])
+        axis.pcolormesh(edges_u, edges_v, np.log1p(amounts.T / max(amounts.max() * 1e-3, 1e-12)), cmap="Greys", alpha=0.6, rasterized=True)
+        low_u, high_u, low_v, high_v = edges_u[0], edges_u[-1], edges_v[0], edges_v[-1]
+        bodies = 0
+    for k in range(bodies):
         a, b = obstacles["half_" + u][k], obstacles["half_" + v][k]
         if obstacles["box"][k]:
             axis.add_patch(Rectangle((obstacles[u][k] - a, obstacles[v][k] - b), 2 * a, 2 * b, color=OBSTACLE, alpha=0.25, lw=0))

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
+#include <vericone/geometry/assembly.h>
+#include <vericone/geometry/combined.h>
 #include <vericone/geometry/error.h>
 #include <vericone/internal/cones/random_engagement.h>
 #include <vericone/swarm/swarm.h>
@@ -7,6 +9,7 @@
 #include <cmath>
 #include <limits>
 #include <set>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -107,6 +110,109 @@ TEST(SwarmFlight, EveryStartIsFlownWithoutTouching) {
   }
 }
 
+simulation::Body body_of(const std::string& name, const Vector3d& semi_axes, const Vector3d& position) {
+  simulation::Body body;
+  body.name = name;
+  body.shape =
+      simulation::RigidShape{WorldBody(CombinedEllipsoid(Ellipsoid::from_axes(Vector3d::Zero(), semi_axes)))};
+  body.start.position = position;
+  return body;
+}
+
+TEST(SwarmFlight, OfAScenarioHasItsAgentsAndWhatRests) {
+  simulation::Scenario scenario;
+  scenario.bodies.push_back(body_of("agent", Vector3d(2, 1, 0.5), Vector3d(0, 0.1, 0)));
+  simulation::Pilot pilot;
+  pilot.guide.inversion.most = 1.5;
+  pilot.fastest = 1.25;
+  pilot.goals.push_back({Vector3d(30, 0, 0)});
+  scenario.bodies[0].pilot = pilot;
+  scenario.bodies.push_back(body_of("rock", Vector3d(2, 3, 1), Vector3d(15, 0, 0)));
+  scenario.bodies.push_back(body_of("building", Vector3d(1, 1, 1), Vector3d(0, 20, 0)));
+  scenario.bodies[2].shape = simulation::RigidShape{WorldBody(Placed(
+      Assembly::boxes({{Vector3d(0, 0, 0), Vector3d(1, 2, 4)}, {Vector3d(-1, -1, -1), Vector3d(0, 0, 0)}})))};
+  const Start start = start_of(scenario);
+  ASSERT_EQ(start.agents.size(), 1u);
+  EXPECT_EQ(start.agents[0].body.half, Vector3d(2, 1, 0.5));
+  EXPECT_EQ(start.agents[0].most, 1.5);
+  EXPECT_EQ(start.agents[0].fastest, 1.25);
+  EXPECT_EQ(start.agents[0].turning, 1);
+  ASSERT_EQ(start.obstacles.size(), 3u);
+  std::vector<Vector3d> middles, halves;
+  for (const Obstacle& one : start.obstacles) {
+    middles.push_back(one.position);
+    halves.push_back(one.body.half);
+  }
+  const auto has = [&](const Vector3d& middle, const Vector3d& half) {
+    for (std::size_t k = 0; k < 3; ++k)
+      if (middles[k] == middle && halves[k] == half) return true;
+    return false;
+  };
+  EXPECT_TRUE(has(Vector3d(15, 0, 0), Vector3d(2, 3, 1)));
+  EXPECT_TRUE(has(Vector3d(0.5, 21, 2), Vector3d(0.5, 1, 2)));
+  EXPECT_TRUE(has(Vector3d(-0.5, 19.5, -0.5), Vector3d(0.5, 0.5, 0.5)));
+  Swarm swarm(start.agents, start.obstacles, {});
+  const SwarmFlight flight = fly(swarm, {});
+  EXPECT_TRUE(flight.touched.empty());
+  EXPECT_TRUE(flight.undecided.empty());
+  EXPECT_LT(flight.arrived[0], 60);
+  const auto refused = [&](auto&& change) {
+    simulation::Scenario bad = scenario;
+    change(bad);
+    try {
+      (void)start_of(bad);
+    } catch (const InputError& error) {
+      return error.field();
+    }
+    return std::string("nothing");
+  };
+  EXPECT_EQ(refused([](simulation::Scenario& bad) { bad.bodies[1].start.velocity.x() = 1; }),
+            "bodies[1].velocity");
+  EXPECT_EQ(refused([](simulation::Scenario& bad) { bad.bodies[0].pilot->goals.clear(); }),
+            "bodies[0].pilot.goals");
+  EXPECT_EQ(refused([](simulation::Scenario& bad) { bad.bodies[0].appears = 1; }), "bodies[0].appears");
+  EXPECT_EQ(refused([](simulation::Scenario& bad) { bad.bodies[0].pilot->goals[0].stay = 1; }),
+            "bodies[0].pilot.goals[0]");
+  EXPECT_EQ(refused([](simulation::Scenario& bad) { bad.bodies[0].shape = bad.bodies[2].shape; }),
+            "bodies[0].shape");
+}
+
+TEST(SwarmFlight, AmidBodiesHasStraightWaysThatAreFree) {
+  std::vector<Obstacle> room;
+  const auto wall = [&](const Vector3d& at, const Vector3d& half) {
+    Obstacle one;
+    one.body.box = true;
+    one.body.half = half;
+    one.position = at;
+    room.push_back(one);
+  };
+  for (const double side : {-1.0, 1.0})
+    for (int k = 0; k < 3; ++k) {
+      Vector3d half = Vector3d::Constant(6);
+      half(k) = 0.1;
+      wall(side * 6 * Vector3d::Unit(k), half);
+    }
+  wall(Vector3d(0, 0, 0), Vector3d(0.5, 0.5, 6));
+  const Start start = start_amid(room, 12, 2);
+  ASSERT_EQ(start.agents.size(), 12u);
+  for (const Agent& agent : start.agents) {
+    EXPECT_GE((agent.goals[0] - agent.position).norm(), 3);
+    for (int k = 0; k <= 100; ++k) {
+      const Vector3d x = agent.position + 0.01 * k * (agent.goals[0] - agent.position);
+      EXPECT_LE(x.lpNorm<Eigen::Infinity>(), 5.4);
+      EXPECT_GE(x.head<2>().lpNorm<Eigen::Infinity>(), 0.85);
+    }
+  }
+  Swarm swarm(start.agents, start.obstacles, {});
+  FlightOptions options;
+  options.duration = 60;
+  const SwarmFlight flight = fly(swarm, options);
+  EXPECT_TRUE(flight.touched.empty());
+  EXPECT_TRUE(flight.undecided.empty());
+  EXPECT_GT(std::count_if(flight.arrived.begin(), flight.arrived.end(), [](double t) { return t < 60; }), 9);
+  EXPECT_THROW((void)start_amid(room, 10000, 2), InputError);
+}
+
 TEST(SwarmFlight, OfOneBodyPastAnotherIsInClosedForm) {
   // A ball of 1.5 m that goes straight past one at rest, 5 m beside its way: no plane ever matters.
   std::vector<Agent> agents(1);
@@ -148,8 +254,10 @@ TEST(SwarmFlight, IsTheSameOnAnyNumberOfThreads) {
 TEST(SwarmFlight, RefusesTimesThatAreNone) {
   Swarm swarm(start_of("circle", 3, 1).agents, {}, {});
   FlightOptions options;
-  options.duration = 0;
-  EXPECT_THROW(fly(swarm, options), InputError);
+  for (const double duration : {0.0, 0.1}) {  // shorter than a step
+    options.duration = duration;
+    EXPECT_THROW(fly(swarm, options), InputError);
+  }
   EXPECT_THROW(start_of("square", 3, 1), InputError);
   EXPECT_THROW(start_of("circle", 0, 1), InputError);
 }

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 #include <vericone/geometry/error.h>
+#include <vericone/internal/cones/random_engagement.h>
 #include <vericone/swarm/swarm.h>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -136,6 +138,104 @@ TEST(Swarm, FindsDeadlocksAndTurnsOutOfThem) {
   EXPECT_LT(right, -4);
 }
 
+TEST(Swarm, TurnsBodiesTowardsTheirVelocityAsFastAsTheyMay) {
+  std::vector<Agent> agents(1);
+  agents[0].body.half = Vector3d(3, 0.75, 0.5);
+  agents[0].goals = {Vector3d(-5, 30, 4)};
+  agents[0].turning = 0.8;
+  Swarm swarm(agents, {}, {});
+  double most = 0;
+  while (swarm.time() < 10) {
+    const Eigen::Matrix3d before = swarm.agents()[0].body.rotation;
+    swarm.step();
+    const Eigen::Matrix3d after = swarm.agents()[0].body.rotation;
+    const Eigen::AngleAxisd turn(Eigen::Matrix3d(after * before.transpose()));
+    most = std::max(most, turn.angle());
+    EXPECT_LT((swarm.flown()[0].turn - turn.angle() * turn.axis()).norm(), 1e-7);
+  }
+  EXPECT_NEAR(most, 0.8 * 0.125, 1e-9);
+  const Agent& agent = swarm.agents()[0];
+  EXPECT_LT((agent.body.rotation.col(0) - agent.velocity.normalized()).norm(), 1e-5);
+}
+
+TEST(Swarm, LeavesOutNoPlaneThatBinds) {
+  // Of agents that reach any velocity in a step: the one nearest to the wish in the planes of all others.
+  using engagements::Random;
+  int bound = 0, compared = 0;
+  for (std::uint64_t world = 0; world < 12; ++world) {
+    Random random(451, world);
+    std::vector<Agent> agents;
+    while (agents.size() < 25) {
+      Agent agent;
+      agent.body.half = Vector3d(1.5, 0.5, 0.4);
+      agent.body.rotation = random.rotation();
+      agent.position = random.uniform(0, 14) * random.direction();
+      agent.velocity = random.uniform(0, 1.5) * random.direction();
+      agent.goals = {30 * random.direction()};
+      agent.most = 1000;
+      if (std::all_of(agents.begin(), agents.end(),
+                      [&](const Agent& other) { return (other.position - agent.position).norm() > 4; }))
+        agents.push_back(agent);
+    }
+    SwarmOptions options;
+    options.neighbours = 100;
+    options.sight = 60;
+    Swarm swarm(agents, {}, options);
+    swarm.step();
+    for (std::size_t i = 0; i < agents.size(); ++i) {
+      const auto roomy = [](Solid body) {
+        body.half *= 1.1;
+        return body;
+      };
+      std::vector<VelocityHalfSpace> planes;
+      for (std::size_t j = 0; j < agents.size(); ++j) {
+        if (j == i) continue;
+        const ReciprocalPlane plane = reciprocal_plane(
+            roomy(agents[i].body), roomy(agents[j].body), agents[j].position - agents[i].position,
+            agents[i].velocity - agents[j].velocity, options.horizon, Nearest::in_speed);
+        planes.push_back({plane.normal, plane.normal.dot(agents[i].velocity + 0.5 * plane.change)});
+      }
+      const Vector3d wish = (agents[i].goals[0] - agents[i].position).normalized();
+      const VelocityFound found = nearest_velocity(planes, 2, wish);
+      if (found.violation > 0) continue;
+      ++compared;
+      bound += (found.velocity - wish).norm() > 0.05;
+      EXPECT_LT((swarm.agents()[i].velocity - found.velocity).norm(), 1e-9) << world << ' ' << i;
+    }
+  }
+  EXPECT_GT(compared, 200);
+  EXPECT_GT(bound, 60);
+}
+
+TEST(Swarm, AnOwnLawFliesAmongOthersAndTouchesNobody) {
+  // It heads for its goal as hard as it can and looks at nobody.
+  Start start = start_of("circle", 24, 3);
+  for (Agent& agent : start.agents) agent.most = 1;
+  std::size_t most_seen = 0;
+  start.agents[0].share = 0;
+  start.agents[0].steering = [&, goal = start.agents[0].goals[0]](
+                                 double, const guidance::BodyState& self,
+                                 const std::vector<guidance::BodyState>& others) -> Vector3d {
+    most_seen = std::max(most_seen, others.size());
+    for (const guidance::BodyState& other : others) EXPECT_GT((other.position - self.position).norm(), 3);
+    return 10 * (goal - self.position);
+  };
+  Swarm swarm(start.agents, {}, {});
+  double fastest = 0;
+  while (swarm.time() < 30) {
+    swarm.step();
+    fastest = std::max(fastest, swarm.agents()[0].velocity.norm());
+    ASSERT_GT(least_of_stops(swarm.agents()), 0) << swarm.time();
+  }
+  EXPECT_NEAR(fastest, 2, 1e-9);
+  EXPECT_GT(most_seen, 5u);
+  start.agents[0].steering = [](double, const guidance::BodyState&, const std::vector<guidance::BodyState>&) {
+    return Vector3d(std::nan(""), 0, 0);
+  };
+  Swarm broken(start.agents, {}, {});
+  EXPECT_THROW(broken.step(), InputError);
+}
+
 std::string refused(std::vector<Agent> agents, const SwarmOptions& options = {},
                     std::vector<Obstacle> obstacles = {}) {
   try {
@@ -165,6 +265,9 @@ TEST(Swarm, RefusesWhatItCannotFly) {
   bad = good;
   bad[0].body.box = true;
   EXPECT_EQ(refused(bad), "agents[0].body.box");
+  bad = good;
+  bad[1].turning = -1;
+  EXPECT_EQ(refused(bad), "agents[1].turning");
   bad = good;
   bad[0].wished = 3;
   EXPECT_EQ(refused(bad), "agents[0].wished");

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <vericone/geometry/error.h>
+#include <vericone/scenarios/scenario_files.h>
 #include <vericone/swarm/swarm.h>
 #include <vericone/work/staged_folder.h>
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <filesystem>
 #include <iostream>
 #include <map>
+#include <optional>
 #include <ostream>
 #include <sstream>
 #include <string>
@@ -33,22 +36,59 @@ struct SwarmCommand : OutputOptions {
   SwarmCommand() { out = "out/swarm"; }
   std::string start, method = "proved";
   std::uint64_t agents = 0, seed = kDefaultSeed;
-  double step = 0.125, duration = 600, sample = 1, lost = 0;
+  std::optional<double> step, duration;  // s
+  double sample = 1, lost = 0;
 };
+
+/// A real building, scanned.
+constexpr const char* kRoom = R"(name: room
+bodies:
+  - name: building
+    shape: {octree: /usr/share/doc/liboctomap-dev/examples/data/geb079.bt, unknown: free}
+    position: [0, 0, 0]
+)";
+
+bool is_named(const std::string& start) {
+  const std::vector<std::string>& names = start_names();
+  return std::find(names.begin(), names.end(), start) != names.end();
+}
 
 /// As many as the tables of docs/measured/swarms.md have.
 std::uint64_t usual_agents(const std::string& start) {
-  static const std::map<std::string, std::uint64_t> usual{
-      {"sphere", 812}, {"crossing", 500}, {"gap", 200}, {"slender", 200}};
+  static const std::map<std::string, std::uint64_t> usual{{"sphere", 812},  {"crossing", 500}, {"gap", 200},
+                                                          {"slender", 200}, {"turning", 200},  {"room", 50}};
   const auto found = usual.find(start);
   return found == usual.end() ? 100 : found->second;
+}
+
+/// By its name, or of a scenario's bodies; where these have no agent, agents are drawn amid them. What the
+/// scenario says of step and duration goes to the command where that does not.
+Start start_for(SwarmCommand& command) {
+  const std::uint64_t agents = command.agents > 0 ? command.agents : usual_agents(command.start);
+  if (is_named(command.start)) return start_of(command.start, agents, command.seed);
+  const bool room = command.start == "room";
+  if (!room && !std::filesystem::exists(command.start))
+    throw InputError("start", command.start,
+                     "circle, sphere, crossing, gap, forest, slender, turning, room or a scenario's file");
+  const simulation::Scenario scenario =
+      room ? scenario::scenario_of_text(kRoom, "room") : scenario::read_scenario(command.start);
+  Start start = start_of(scenario);
+  if (!room) {
+    command.start = scenario.name;
+    if (!command.step) command.step = scenario.step;
+    if (!command.duration) command.duration = scenario.duration;
+  }
+  if (start.agents.empty()) return start_amid(std::move(start.obstacles), agents, command.seed);
+  if (command.agents > 0 && command.agents != start.agents.size())
+    throw InputError("agents", std::to_string(command.agents), "left out: the scenario has its agents");
+  return start;
 }
 
 SwarmOptions options_of(const SwarmCommand& command) {
   if (command.method != "proved" && command.method != "orca")
     throw InputError("--method", command.method, "proved or orca");
   SwarmOptions options = command.method == "orca" ? SwarmOptions::published() : SwarmOptions{};
-  options.step = command.step;
+  options.step = command.step.value_or(options.step);
   options.lost = command.lost;
   options.seed = command.seed;
   options.threads = threads_for(command.threads);
@@ -117,7 +157,7 @@ Json summary_of(const SwarmCommand& command, const Swarm& swarm, const SwarmFlig
           {"seed", command.seed},
           {"agents", swarm.agents().size()},
           {"obstacles", swarm.obstacles().size()},
-          {"step", command.step},
+          {"step", swarm.options().step},
           {"lost", command.lost},
           {"end", flight.end},
           {"arrived", arrived},
@@ -140,23 +180,26 @@ void print_flight(const Json& summary, std::ostream& out) {
     return summary[key].is_null() ? std::string("-") : number_text(summary[key].get<double>(), 4);
   };
   const auto count = [&](const char* key) { return std::to_string(summary[key].get<std::uint64_t>()); };
+  const bool all = !summary["last_arrival"].is_null();
   out << "swarm     " << summary["start"].get<std::string>() << ", " << count("agents") << " agents, "
       << count("obstacles") << " obstacles, method " << summary["method"].get<std::string>() << '\n'
-      << "pairs     " << count("touched") << " touched, " << count("undecided")
-      << " undecided, all others apart by " << number("least_distance") << " m or more: proved\n"
-      << "arrived   " << count("arrived") << " of " << count("agents") << ", the last after "
-      << number("last_arrival") << " s; paths " << number("path_ratio") << " of straight, at most "
-      << number("path_ratio_worst") << '\n'
+      << "pairs     " << count("touched") << " touched, " << count("undecided") << " undecided, "
+      << (summary["least_distance"].is_null()
+              ? std::string("no others: proved\n")
+              : "all others apart by " + number("least_distance") + " m or more: proved\n")
+      << "arrived   " << count("arrived") << " of " << count("agents")
+      << " within their reach of the last goal, "
+      << (all ? "the last after " + number("last_arrival") : "in " + number("end")) << " s; paths "
+      << number("path_ratio") << " of straight, at most " << number("path_ratio_worst") << '\n'
       << "commands  " << count("commands") << ", of them " << count("fallbacks") << " fallbacks, "
       << count("planes_left") << " with planes left; " << count("deadlocks") << " deadlocks\n";
 }
 
 /// Flies a swarm and writes what became of it. Returns the exit status: 1 where a pair touched, or is
 /// undecided, by the method that promises that none does, 130 interrupted. Throws InputError.
-int run_swarm(const SwarmCommand& command, std::ostream& out) {
-  const SwarmOptions options = options_of(command);
+int run_swarm(SwarmCommand command, std::ostream& out) {
+  (void)options_of(command);
   work::StagedFolder folder(command.out, "--out");
-  const std::uint64_t agents = command.agents > 0 ? command.agents : usual_agents(command.start);
   const auto named = [](auto&& work) {
     try {
       return work();
@@ -168,10 +211,11 @@ int run_swarm(const SwarmCommand& command, std::ostream& out) {
       throw;
     }
   };
-  Start start = named([&] { return start_of(command.start, agents, command.seed); });
+  Start start = named([&] { return start_for(command); });
+  const SwarmOptions options = options_of(command);
   Swarm swarm = named([&] { return Swarm(std::move(start.agents), std::move(start.obstacles), options); });
   FlightOptions flown;
-  flown.duration = command.duration;
+  flown.duration = command.duration.value_or(flown.duration);
   flown.sample = command.sample;
   Progress progress(command.quiet);
   flown.progress = [&](double share) { return progress.show("flying " + command.start, share); };
@@ -205,15 +249,18 @@ namespace vericone {
 
 int swarm_command(CommandLine& line) {
   swarm::SwarmCommand swarm;
-  line.option("start", swarm.start,
-              "circle, sphere, crossing, gap, forest or slender (docs/explanation/swarms.md)")
+  line.option(
+          "start", swarm.start,
+          "circle, sphere, crossing, gap, forest, slender, turning, room (docs/explanation/swarms.md), or a "
+          "scenario's file")
       .required();
-  line.option("-N,--agents", swarm.agents, "Agents, 0: as many as the measured tables have");
+  line.option("-N,--agents", swarm.agents, "Agents, 0: as many as the measured tables have, or the scenario");
   line.option("--seed", swarm.seed, "Seed of all random numbers");
   line.option("--method", swarm.method, "proved; orca, as published, changes velocities at once");
   line.option("--out", swarm.out, "Folder for tables and picture");
-  line.option("--step", swarm.step, "Between two commands, s");
-  line.option("--duration", swarm.duration, "At most, s; ends when all have arrived");
+  line.option("--step", swarm.step, "Between two commands, s; left out: the scenario's, or 0.125");
+  line.option("--duration", swarm.duration,
+              "At most, s; ends when all have arrived; left out: the scenario's, or 600");
   line.option("--sample", swarm.sample, "Between two rows of an agent in positions.csv, s");
   line.option("--lost", swarm.lost, "Of the messages of one agent to another the share that is lost");
   line.option("--threads", swarm.threads, "Threads, 0: one per processor");

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "block_proof.h"
 
-#include <vericone/geometry/combined.h>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -24,9 +23,12 @@ BlockProof::BlockProof(const std::vector<Agent>& agents, const std::vector<Obsta
     : agents_(agents.size()), threads_(threads), least_(std::numeric_limits<double>::infinity()) {
   for (const Agent& agent : agents) solids_.push_back(agent.body);
   for (const Obstacle& obstacle : obstacles) solids_.push_back(obstacle.body);
-  for (const Solid& solid : solids_) bodies_.emplace_back(solid);
+  for (const Solid& solid : solids_) bodies_.push_back({Prepared(solid)});
+  now_ = solids_;
   legs_.resize(solids_.size());
+  turns_.resize(solids_.size());
   met_.resize(solids_.size());
+  for (const Agent& agent : agents) turning_.push_back(agent.turning > 0);
   for (std::size_t k = 0; k < obstacles.size(); ++k)
     legs_[agents_ + k] = {{0, obstacles[k].position, Vector3d::Zero(), Vector3d::Zero()}};
 }
@@ -35,10 +37,23 @@ void BlockProof::add(const std::vector<Flown>& flown, double t, double step) {
   for (std::size_t i = 0; i < agents_; ++i) {
     const Flown& way = flown[i];
     const PlanLeg leg{t, way.position, way.velocity, way.acceleration};
-    if (way.seconds > 0) legs_[i].push_back(leg);
+    const auto push = [&](const PlanLeg& next, const Vector3d& turn) {
+      legs_[i].push_back(next);
+      if (!turning_[i]) return;
+      turns_[i].push_back(turn);
+      now_[i] = turned(now_[i], turn);
+      bodies_[i].emplace_back(now_[i]);
+    };
+    if (way.seconds > 0) push(leg, way.turn);
     if (way.seconds < step)
-      legs_[i].push_back({t + way.seconds, leg.at(t + way.seconds), Vector3d::Zero(), Vector3d::Zero()});
+      push({t + way.seconds, leg.at(t + way.seconds), Vector3d::Zero(), Vector3d::Zero()}, Vector3d::Zero());
   }
+}
+
+Way BlockProof::way(std::size_t i) const {
+  double most_turn = 0;
+  for (const Vector3d& turn : turns_[i]) most_turn = std::max(most_turn, turn.norm());
+  return {legs_[i], bodies_[i].data(), bodies_[i].size() - 1, most_turn};
 }
 
 BlockProof::Ball BlockProof::swept(std::size_t i, double until) const {
@@ -55,12 +70,11 @@ BlockProof::Ball BlockProof::swept(std::size_t i, double until) const {
     beside = std::max(beside, legs[k].acceleration.norm() * dt * dt / 8);
   }
   return {0.5 * (low + high),
-          (0.5 * (high - low).norm() + beside) * (1 + 1e-12) + bodies_[i].reach + kPadding};
+          (0.5 * (high - low).norm() + beside) * (1 + 1e-12) + bodies_[i][0].reach + kPadding};
 }
 
 BlockProof::Bound BlockProof::bound(std::size_t a, std::size_t b, double until) const {
-  const PairOfWays ways{legs_[a], legs_[b]};
-  return {proved_gap(Between(bodies_[a], bodies_[b]), ways, from_, until, 4 * kPadding, kHalvings), a, b};
+  return {proved_gap(way(a), way(b), from_, until, 4 * kPadding, kHalvings), a, b};
 }
 
 bool BlockProof::have_met(std::size_t a, std::size_t b) const {
@@ -68,11 +82,9 @@ bool BlockProof::have_met(std::size_t a, std::size_t b) const {
 }
 
 Track BlockProof::track(std::size_t i, double until) const {
-  const Solid& solid = solids_[i];
+  Solid solid = solids_[i];
   const Vector3d zero = Vector3d::Zero();
-  const simulation::RigidShape shape{
-      solid.box ? WorldBody(HullBody::box(-solid.half, solid.half))
-                : WorldBody(CombinedEllipsoid(Ellipsoid::from_axes(zero, solid.half)))};
+  const simulation::RigidShape shape{world_body(solid)};
   const std::vector<PlanLeg>& legs = legs_[i];
   const PlanLeg& first = legs.front();
   Track track(shape, {first.at(from_), first.velocity_at(from_), solid.rotation},
@@ -86,7 +98,10 @@ Track BlockProof::track(std::size_t i, double until) const {
     position[0] = legs[k].at(begin);
     position[1] = legs[k].velocity_at(begin);
     position[2] = 0.5 * legs[k].acceleration;
-    track.append(Curve(position, still, solid.rotation, begin, end));
+    simulation::Quintic turn = still;
+    if (turning_of(i)) turn[1] = turns_[i][k] / (end - begin);
+    track.append(Curve(position, turn, solid.rotation, begin, end));
+    if (turning_of(i)) solid = turned(solid, turns_[i][k]);
   }
   return track;
 }
@@ -168,7 +183,12 @@ void BlockProof::prove(double until) {
   for (const std::vector<Bound>& part : found) all.insert(all.end(), part.begin(), part.end());
   settle(std::move(all), until);
   from_ = until;
-  for (std::size_t i = 0; i < agents_; ++i) legs_[i].clear();
+  for (std::size_t i = 0; i < agents_; ++i) {
+    legs_[i].clear();
+    turns_[i].clear();
+    bodies_[i] = {bodies_[i].back()};
+  }
+  solids_ = now_;
 }
 
 }  // namespace vericone::swarm

@@ -46,8 +46,14 @@ class BlockProof {
   void settle(std::vector<Bound> bounds, double until);
   [[nodiscard]] bool have_met(std::size_t a, std::size_t b) const;
 
-  std::vector<Solid> solids_;
-  std::vector<Prepared> bodies_;
+  [[nodiscard]] Way way(std::size_t i) const;
+  [[nodiscard]] bool turning_of(std::size_t i) const { return i < agents_ && turning_[i]; }
+
+  std::vector<Solid> solids_, now_;  // when the block began, and now
+  std::vector<bool> turning_;        // of agents
+  // Of each: what it is, or where it turns what it is at the beginning of each leg and at the last one's end.
+  std::vector<std::vector<Prepared>> bodies_;
+  std::vector<std::vector<Eigen::Vector3d>> turns_;  // of those that turn, in each leg, rad
   std::size_t agents_;
   int threads_;
   double from_ = 0;                            // s, of the block

@@ -66,6 +66,8 @@ std::size_t follow(const Swarm& swarm, SwarmFlight& flight) {
 
 SwarmFlight fly(Swarm& swarm, const FlightOptions& options) {
   check(options);
+  if (!(options.duration >= swarm.options().step))
+    throw InputError("duration", to_text(options.duration), "at least a step (seconds)");
   const std::size_t count = swarm.agents().size();
   SwarmFlight flight;
   flight.arrived.assign(count, std::numeric_limits<double>::infinity());

@@ -3,6 +3,7 @@
 // What an agent flies: a command, then the stop after it; and whether two such are apart for ever.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <span>
 
@@ -50,19 +51,42 @@ class Plan {
   Eigen::Vector3d middle_ = Eigen::Vector3d::Zero();
 };
 
-/// Legs of two bodies over one time.
-struct PairOfWays {
-  std::span<const PlanLeg> first, second;
-  double end = 0;  // s
+/// Legs of a body over a time, and what it is in them: in leg k it turns from bodies[k] to bodies[k + 1] at a
+/// constant rate; the last of them it remains.
+struct Way {
+  std::span<const PlanLeg> legs;
+  const Prepared* bodies;
+  std::size_t last = 0;  // of `bodies`
+  double most_turn = 0;  // rad, in a leg
+
+  [[nodiscard]] const Prepared& body(std::size_t leg) const { return bodies[std::min(leg, last)]; }
+  /// Half its width along n at any time in a leg, or more. A point of the body is p.R(t)^T n along n, whose
+  /// second derivative by the angle turned is at most its reach: so far it is above the chord between both
+  /// ends by at most angle^2 / 8.
+  [[nodiscard]] double width(std::size_t leg, const Eigen::Vector3d& n) const {
+    const double begin = body(leg).width(n);
+    if (leg >= last || body(leg).round) return begin;
+    return std::max(begin, body(leg + 1).width(n)) + 0.125 * most_turn * most_turn * body(leg).reach;
+  }
 };
 
 /// m: never nearer than this in [from, to], by one plane a piece of time, the same normal throughout; pieces
-/// that it does not prove are halved `halvings` times. Negative: not proved.
-[[nodiscard]] double proved_gap(const Between& between, const PairOfWays& ways, double from, double to,
-                                double enough, int halvings);
+/// that it does not prove are halved `halvings` times. Negative: not proved. `hint`: tried first where it is
+/// not zero, of length 1; becomes the normal that proved all, or zero.
+[[nodiscard]] double proved_gap(const Way& a, const Way& b, double from, double to, double enough,
+                                int halvings, Eigen::Vector3d* hint = nullptr);
 
-/// Whether both plans, begun together, are apart for ever by more than what rounding may take.
-[[nodiscard]] bool apart(const Prepared& a, const Plan& of_a, const Prepared& b, const Plan& of_b);
+/// What an agent flies, and with which attitudes: `turned` where it turns in its step, by `turn` rad.
+struct Course {
+  const Plan& plan;
+  const Prepared* bodies;  // before, and after the step where `turn` is not 0
+  double turn = 0;         // rad
+
+  [[nodiscard]] Way way() const { return {plan.legs(), bodies, turn > 0 ? 1U : 0U, turn}; }
+};
+
+/// Whether both, begun together, are apart for ever by more than what rounding may take.
+[[nodiscard]] bool apart(const Course& a, const Course& b, Eigen::Vector3d* hint = nullptr);
 
 /// m: positions are off by no more than this from the polynomials between two steps, rounding of supports
 /// included, for coordinates within 1e5 m.

@@ -15,7 +15,8 @@ namespace {
 
 constexpr int kMostExchanged = 12;
 constexpr double kStays = 1e-13;  // rad
-constexpr double kFine = 1e-3;    // rad: the parabola through three that are as near is right to its cube
+constexpr double kNearly = 1e-7;
+constexpr double kFine = 1e-3;  // rad: the parabola through three that are as near is right to its cube
 constexpr double kAround = std::numbers::pi / 4;
 
 struct Turned {
@@ -134,6 +135,25 @@ Prepared::Prepared(const Solid& solid)
       round(!solid.box && solid.half.x() == solid.half.y() && solid.half.x() == solid.half.z()),
       box(solid.box) {}
 
+WorldBody world_body(const Solid& solid) {
+  if (solid.box) return {HullBody::box(-solid.half, solid.half)};
+  return {CombinedEllipsoid(Ellipsoid::from_axes(Vector3d::Zero(), solid.half))};
+}
+
+Solid turned(const Solid& solid, const Vector3d& by) {
+  const double angle = by.norm();
+  if (!(angle > 0)) return solid;
+  Solid after = solid;
+  const Eigen::Quaterniond q(Matrix3d(Eigen::AngleAxisd(angle, by / angle) * solid.rotation));
+  after.rotation = q.normalized().toRotationMatrix();
+  return after;
+}
+
+Vector3d normal_of_balls(const Prepared& a, const Prepared& b, const Vector3d& c, const Vector3d& v,
+                         double horizon) {
+  return of_ball(c, a.reach + b.reach, v, horizon).normal;
+}
+
 Between::Between(const Prepared& first, const Prepared& second)
     : first_(first), second_(second), round_(first.round && second.round) {
   if (round_ || second.box) return;
@@ -206,7 +226,8 @@ ReciprocalPlane Between::plane(const Vector3d& c, const Vector3d& v, double hori
       const Turned other = of_ball(y + at.point - at.radius * turned.normal, at.radius, w, horizon);
       const double by = (other.normal - turned.normal).norm();
       turned = other;
-      if (by < kStays) break;
+      // What is nearest in speed is sought from there, anew.
+      if (by < (nearest == Nearest::in_speed ? kNearly : kStays)) break;
     }
     if (nearest == Nearest::in_speed && !turned.cut) turned.normal = side(y, turned.normal, w);
     width = this->width(turned.normal);

@@ -3,6 +3,7 @@
 // Two bodies of a swarm, and the planes between them.
 #pragma once
 
+#include <vericone/geometry/world_body.h>
 #include <vericone/swarm/swarm.h>
 #include <Eigen/Core>
 
@@ -25,6 +26,23 @@ struct Prepared {
     return box ? u.lpNorm<1>() : u.norm();
   }
 };
+
+/// About the origin, not turned.
+[[nodiscard]] WorldBody world_body(const Solid& solid);
+
+/// The same body, turned by that rotation vector about its centre.
+[[nodiscard]] Solid turned(const Solid& solid, const Eigen::Vector3d& by);
+
+/// m/s: so far at least v is outside of the velocities that touch within `horizon`, by the plane with that
+/// normal alone, of length 1; negative where it says nothing.
+[[nodiscard]] inline double outside_by(const Prepared& a, const Prepared& b, const Eigen::Vector3d& c,
+                                       const Eigen::Vector3d& v, double horizon, const Eigen::Vector3d& n) {
+  const double ahead = n.dot(c) + a.width(n) + b.width(n);
+  return ahead <= 0 ? n.dot(v) - ahead / horizon : -1;
+}
+/// The normal of ORCA's plane of the balls about both.
+[[nodiscard]] Eigen::Vector3d normal_of_balls(const Prepared& a, const Prepared& b, const Eigen::Vector3d& c,
+                                              const Eigen::Vector3d& v, double horizon);
 
 /// In coordinates in which the sum of both shape matrices is 1, the sum of both bodies about their distance.
 class Between {

@@ -94,6 +94,12 @@ Start slender(std::size_t count, Random& random) {
   return start;
 }
 
+Start turning(std::size_t count, Random& random) {
+  Start start = slender(count, random);
+  for (Agent& agent : start.agents) agent.turning = 1;
+  return start;
+}
+
 Start crossing(std::size_t count, Random& random) {
   constexpr double kSpacing = 8;
   const std::size_t first = count - count / 2;
@@ -158,7 +164,8 @@ Start forest(std::size_t count, Random& random) {
 }  // namespace
 
 const std::vector<std::string>& start_names() {
-  static const std::vector<std::string> names{"circle", "sphere", "crossing", "gap", "forest", "slender"};
+  static const std::vector<std::string> names{"circle", "sphere",  "crossing", "gap",
+                                              "forest", "slender", "turning"};
   return names;
 }
 
@@ -171,7 +178,8 @@ Start start_of(const std::string& name, std::size_t agents, std::uint64_t seed) 
   if (name == "gap") return gap(agents, random);
   if (name == "forest") return forest(agents, random);
   if (name == "slender") return slender(agents, random);
-  throw InputError("name", name, "circle, sphere, crossing, gap, forest or slender");
+  if (name == "turning") return turning(agents, random);
+  throw InputError("name", name, "circle, sphere, crossing, gap, forest, slender or turning");
 }
 
 }  // namespace vericone::swarm

@@ -16,6 +16,7 @@ class Swarms(unittest.TestCase):
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
+        self.folder = folder.name
         self.out = os.path.join(folder.name, "out")
 
     def swarm(self, *words):
@@ -59,6 +60,32 @@ class Swarms(unittest.TestCase):
         self.assertGreater(orca["touched"], 0)
         self.assertEqual(len(orca["touched_pairs"]), orca["touched"])
 
+    def test_flies_the_agents_of_a_scenario(self):
+        scenario = os.path.join(self.folder, "three.yaml")
+        with open(scenario, "w", encoding="utf-8") as file:
+            file.write("step: 0.1\nduration: 90\nbodies:\n")
+            for k, orientation in enumerate(("fixed", "heading", "fixed")):
+                file.write(f"  - name: agent{k}\n    shape: {{semi_axes: [1.5, 0.5, 0.5]}}\n    position: [0, {6 * k}, 0]\n"
+                           f"    velocity: [0, 0, 0]\n    orientation: {orientation}\n"
+                           "    pilot: {law: clearance, clearance: {required: 0.1, longitudinal: true}, most: 2, fastest: 1.5,\n"
+                           f"            goal: {{point: [30, {12 - 6 * k}, 0], most: 2}}}}\n")
+            file.write("  - name: rock\n    shape: {semi_axes: [2, 4, 1]}\n    position: [15, 6, 0]\n    velocity: [0, 0, 0]\n")
+        status, summary = self.swarm(scenario)
+        self.assertEqual((status, summary["start"], summary["step"], summary["agents"], summary["obstacles"]),
+                         (0, "three", 0.1, 3, 1))
+        self.assertEqual((summary["touched"], summary["undecided"], summary["arrived"]), (0, 0, 3))
+        result = run("swarm", scenario, "-N", "4", "--quiet", "--out", self.out + "2")
+        self.assertEqual((result.returncode, result.stdout), (2, ""))
+        self.assertEqual(result.stderr, "vericone: --agents: got 4, must be left out: the scenario has its agents\n")
+
+    def test_says_what_arrived_means_and_where_there_is_no_pair(self):
+        result = run("swarm", "circle", "-N", "1", "--no-figures", "--quiet", "--out", self.out)
+        self.assertEqual((result.returncode, result.stderr), (0, ""))
+        self.assertIn("0 undecided, no others: proved\n", result.stdout)
+        self.assertIn("arrived   1 of 1 within their reach of the last goal, the last after ", result.stdout)
+        result = run("swarm", "circle", "-N", "3", "--duration", "2", "--no-figures", "--quiet", "--out", self.out + "2")
+        self.assertIn("arrived   0 of 3 within their reach of the last goal, in 2 s;", result.stdout)
+
     def test_writes_the_same_on_any_number_of_threads(self):
         found = []
         for threads in ("1", "2", "4"):
@@ -69,7 +96,9 @@ class Swarms(unittest.TestCase):
 
     def test_refuses_in_one_line(self):
         for words, line in (
-                (["square"], "start: got square, must be circle, sphere, crossing, gap, forest or slender"),
+                (["square"], "start: got square, must be circle, sphere, crossing, gap, forest, slender, turning, room or a "
+                             "scenario's file"),
+                (["circle", "-N", "3", "--step", "1e9"], "--duration: got 600, must be at least a step (seconds)"),
                 (["circle", "--method", "rvo"], "--method: got rvo, must be proved or orca"),
                 (["circle", "-N", "2000000"], "--agents: got 2000000, must be 1 to 1000000"),
                 (["circle", "--step", "0"], "--step: got 0, must be a positive finite number"),

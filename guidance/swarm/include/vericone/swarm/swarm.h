@@ -4,7 +4,9 @@
 // (docs/explanation/swarms.md), and the published method, ORCA, beside it.
 #pragma once
 
+#include <vericone/simulation/pilot.h>
 #include <vericone/simulation/proof.h>
+#include <vericone/simulation/scenario.h>
 #include <Eigen/Core>
 #include <cstddef>
 #include <cstdint>
@@ -15,7 +17,7 @@
 
 namespace vericone::swarm {
 
-/// An ellipsoid, or a box, about its centre. It keeps its attitude.
+/// An ellipsoid, or a box, about its centre.
 struct Solid {
   Eigen::Vector3d half = Eigen::Vector3d::Ones();          // semi-axes, or half widths, m
   Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();  // of its axes in the world
@@ -78,6 +80,12 @@ struct Agent {
   double wished = 1;  // m/s, towards its goal
   double fastest = 2;  // m/s
   double most = 2;     // m/s^2, any way; ORCA changes its velocity at once and has no such bound
+  /// rad/s: at most so fast its first axis turns towards its velocity, about the axis across both; 0: it
+  /// keeps its attitude. ORCA's balls do not turn.
+  double turning = 0;
+  /// A law of its own, in place of planes: what it wants, of what is in sight, agents first, obstacles after.
+  /// What is flown of it is proved as of all others. Called for one agent after the other.
+  simulation::Steering steering = {};
 };
 
 /// At rest, and gives no way.
@@ -112,6 +120,7 @@ struct SwarmOptions {
 struct Flown {
   Eigen::Vector3d position, velocity, acceleration;  // m, m/s, m/s^2
   double seconds = 0;
+  Eigen::Vector3d turn = Eigen::Vector3d::Zero();  // rad, in world axes, in those seconds at a constant rate
 };
 
 struct SwarmCounts {
@@ -155,9 +164,21 @@ struct Start {
   std::vector<Obstacle> obstacles;
 };
 [[nodiscard]] const std::vector<std::string>& start_names();
-/// circle, sphere, crossing, gap, forest, slender: docs/explanation/swarms.md. Positions are scattered by 1
-/// cm by the seed, bodies of the forest drawn by it. Throws InputError naming "name", "agents" or "bodies".
+/// circle, sphere, crossing, gap, forest, slender, turning: docs/explanation/swarms.md. Positions are
+/// scattered by 1 cm by the seed, bodies of the forest drawn by it. Throws InputError naming "name", "agents"
+/// or "bodies".
 [[nodiscard]] Start start_of(const std::string& name, std::size_t agents, std::uint64_t seed);
+
+/// Bodies at rest, and agents in the free space amid them, drawn by the seed: balls of 0.2 m, 1 m/s, each
+/// with a goal 3 m off or more, the straight way there 0.5 m from all bodies. Throws InputError naming
+/// "agents" where there is no such place for so many. Cost: linear in the bodies, 10 ms an agent in a map of
+/// 100,000 boxes.
+[[nodiscard]] Start start_amid(std::vector<Obstacle> obstacles, std::size_t agents, std::uint64_t seed);
+
+/// Of a scenario: ellipsoids with a pilot that has goals are agents, which its `most` and `fastest` bound;
+/// bodies without pilot, at rest, obstacles: ellipsoids, boxes, maps. Bodies that turn with their heading do
+/// so at 1 rad/s at most. Throws InputError naming "bodies[i]..." where a body is neither.
+[[nodiscard]] Start start_of(const simulation::Scenario& scenario);
 
 struct TouchedPair {
   std::size_t a = 0, b = 0;  // agents; from the number of agents on obstacles
