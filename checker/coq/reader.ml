@@ -179,6 +179,7 @@ type sides = { agent_pieces : int; obstacle_pieces : int; by : bool; moving_w : 
 let places value =
   let corners = List.map (fun pair -> match items pair with
       | [k; w] -> (index max_int k, rational (number w))
+      | [_; _; _] -> unknown "weights of round parts"
       | _ -> malformed "weights are pairs of a corner and a number") (items value) in
   let seen = List.sort_uniq compare (List.map fst corners) in
   form (List.length seen = List.length corners) "a corner twice";

@@ -154,6 +154,24 @@ class Attacks(unittest.TestCase):
         for products in ([["one", "one", 1]], [["from", "until", 1]], [["until", "one", 1]], [["one", "one", -1]], [["agent", "one", 1]]):
             self.refused(disjoint({**BALL, "center": [1, 0, 0]}, {"rule": "forms", "agent": [1], "obstacle": [1], "products": products}))
 
+    def test_means(self):
+        """An ellipsoid and a ball as one part of themselves; weights twice, of sum 2, of a part that is none, of what has dents."""
+        its = {"kind": "ellipsoid", "center": ["5/2", 0, 0], "factor": [[2, 0, 0], [0, 1, 0], [0, 0, 1]]}
+
+        def at(x, m, inside, body=its, **more):
+            return make.certificate({"says": "overlapping", "agent": BALL, "obstacle": body}, {
+                "rule": "point", "time": 0, "point": [x, 0, 0], "inside": inside, "obstacle_weights": [[0, 1, [m, 0, 0]]], **more})
+        for x, m, inside in (("9/10", "-2/5", "agent"), ("9/10", "-2/5", "obstacle"), ("9/10", "-2/5", "both"), ("1/2", "-1/2", "agent")):
+            self.accepted(at(x, m, inside))
+            self.accepted(at(x, m, inside, agent_weights=[[0, 1]]))
+        dented = {**its, "kind": "delimited", "delimiters": [{"matrix": UNIT, "level": 0}]}
+        for bad in (at("1/2", "-1/2", "obstacle"), at("46/100", "-51/100", "agent"), at("9/10", "-39/100", "agent"), at(1, "-3/8", "agent"),
+                    at(1, "-3/8", "agent", agent_weights=[[0, 1]]), at("11/10", "-7/20", "obstacle", agent_weights=[[0, 1]]),
+                    at("9/10", "-2/5", "agent", dented), at("9/10", "-2/5", "agent", agent_weights=[[1, 1]]),
+                    at("9/10", "-2/5", "agent", agent_weights=[[0, 2]]), at("9/10", "-2/5", "agent", agent_weights=[[0, "1/2"], [0, "1/2"]]),
+                    at("9/10", "-2/5", "agent", obstacle_weights=[[0, 2, ["-2/5", 0, 0]], [0, -1]])):
+            self.refused(bad)
+
     def test_errors(self):
         """Sets that change places, are larger than what is proved, are of the plane."""
         hit = {"rule": "plane", "n": [0, 1, 0], "agent_at_most": 1, "obstacle_at_least": 2}
