@@ -44,7 +44,9 @@ endif()
 
 # One position-independent code for libraries and programs, so that they share precompiled headers.
 set(CMAKE_POSITION_INDEPENDENT_CODE OFF)
-add_compile_options(-fPIC)
+if(NOT EMSCRIPTEN)
+  add_compile_options(-fPIC)
+endif()
 
 # g++ collects garbage whenever its heap has doubled; from 400 MB on is early enough, and saves 9 % of its time.
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")

@@ -17,6 +17,7 @@ int signmap_command(CommandLine& line);
 int gallery_command(CommandLine& line);
 int shapes_command(CommandLine& line);
 int merge_command(CommandLine& line);
+int view_command(CommandLine& line);
 
 // What moves: not in a build without VERICONE_SIMULATION.
 int robust_law_command(CommandLine& line);

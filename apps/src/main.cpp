@@ -6,10 +6,11 @@
 
 int main(int argc, char** argv) {
   using namespace vericone;
-  std::map<std::string, Command> commands{
-      {"cone", cone_command},       {"query", query_command},     {"accuracy", accuracy_command},
-      {"signmap", signmap_command}, {"gallery", gallery_command}, {"shapes", shapes_command},
-      {"merge", merge_command},     {"bands", bands_command},     {"avoid", avoid_command}};
+  std::map<std::string, Command> commands{{"cone", cone_command},         {"query", query_command},
+                                          {"accuracy", accuracy_command}, {"signmap", signmap_command},
+                                          {"gallery", gallery_command},   {"shapes", shapes_command},
+                                          {"merge", merge_command},       {"bands", bands_command},
+                                          {"avoid", avoid_command},       {"view", view_command}};
 #ifdef VERICONE_WITH_SIMULATION
   commands.merge(std::map<std::string, Command>{{"robust-law", robust_law_command},
                                                 {"law", law_command},

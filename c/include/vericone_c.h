@@ -57,7 +57,8 @@ enum vericone_kind {
   VERICONE_MESH, /* triangles, without what they enclose */
   VERICONE_CLOUD,
   VERICONE_BOXES,
-  VERICONE_PIECES
+  VERICONE_PIECES,
+  VERICONE_CONVEX /* a cylinder, a capsule, one of the others with a margin */
 };
 
 /* About the body's own origin, its semi-axes those of `rotation`'s columns. */
@@ -102,6 +103,12 @@ VERICONE_API double vericone_body_support(const vericone_body* body, const doubl
 VERICONE_API int32_t vericone_body_containing_ellipsoid(const vericone_body* body, double center[3],
                                                         double shape[9]);
 
+/* All that defines the body, for another process or machine with a library of this version: how many numbers;
+ * the first `capacity` of them are written. */
+VERICONE_API int64_t vericone_body_numbers(const vericone_body* body, double* numbers, size_t capacity);
+/* The same body again, bit for bit: one of any kind. */
+VERICONE_API vericone_body* vericone_body_of_numbers(const double* numbers, size_t count);
+
 /* ---- Pairs ---- */
 
 typedef struct vericone_pair vericone_pair;
@@ -134,6 +141,12 @@ VERICONE_API int32_t vericone_pair_relation(const vericone_pair* pair);
 /* enum vericone_verdict. No allocation; two ellipsoids 20 to 40 ns. */
 VERICONE_API int32_t vericone_pair_verdict(const vericone_pair* pair, const double agent_velocity[3],
                                            const double obstacle_velocity[3]);
+/* What decided the verdict of an exact pair: doubles with a bound of their error, intervals, whole numbers.
+ */
+enum vericone_rung { VERICONE_TRIAGE, VERICONE_INTERVAL, VERICONE_EXACT, VERICONE_CERTIFIED };
+/* enum vericone_rung; of pairs that are not exact VERICONE_CERTIFIED. For measurements. */
+VERICONE_API int32_t vericone_pair_rung(const vericone_pair* pair, const double agent_velocity[3],
+                                        const double obstacle_velocity[3]);
 /* Whether they meet from `from` until `until`, seconds >= 0; INFINITY: for ever. As Pair::verdict() within a
  * horizon: `in` where they overlap by its end, `on` where they only touch by then. */
 VERICONE_API int32_t vericone_pair_verdict_within(const vericone_pair* pair, const double agent_velocity[3],

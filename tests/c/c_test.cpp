@@ -21,6 +21,8 @@
 #include <numeric>
 #include <thread>
 
+#include "c_bodies.h"
+
 extern "C" {
 std::size_t sizes_in_c(std::size_t* list);
 std::size_t counted(void);
@@ -29,122 +31,7 @@ std::size_t counted(void);
 namespace vericone::c_test {
 namespace {
 
-using Eigen::Matrix3d, Eigen::Vector3d;
-using ::testing::HasSubstr, ::testing::StartsWith;
-using testing::RandomBodies;
-
-template <typename T, void (*free)(T*)>
-struct Free {
-  void operator()(T* p) const { free(p); }
-};
-using BodyHandle = std::unique_ptr<vericone_body, Free<vericone_body, vericone_body_free>>;
-using PairHandle = std::unique_ptr<vericone_pair, Free<vericone_pair, vericone_pair_free>>;
-using ConeHandle = std::unique_ptr<vericone_cone, Free<vericone_cone, vericone_cone_free>>;
-using NavigatorHandle =
-    std::unique_ptr<vericone_navigator, Free<vericone_navigator, vericone_navigator_free>>;
-
-using Rows = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
-
-struct Both {
-  BodyHandle c;
-  vericone::Body cpp;
-};
-
-std::vector<double> flat(const std::vector<Vector3d>& points) {
-  std::vector<double> list;
-  for (const Vector3d& x : points) list.insert(list.end(), x.begin(), x.end());
-  return list;
-}
-
-std::vector<Vector3d> points(RandomBodies& random, int count) {
-  std::vector<Vector3d> list(std::size_t(count), Vector3d::Zero());
-  for (Vector3d& x : list) x = random.in_box(1);
-  return list;
-}
-
-Both ellipsoid(RandomBodies& random) {
-  const Vector3d center = random.in_box(0.3),
-                 axes(random.uniform(0.2, 2), random.uniform(0.2, 2), random.uniform(0.2, 2));
-  const Matrix3d turn = random.rotation();
-  const Rows rows = turn;
-  return {BodyHandle(vericone_body_ellipsoid(center.data(), axes.data(), rows.data())),
-          Ellipsoid::from_axes(center, axes, turn)};
-}
-
-Both combined(RandomBodies& random) {
-  const Vector3d axes(1.5, 1, 0.8);
-  const Matrix3d turn = random.rotation();
-  const Rows rows = turn;
-  const int sheets = random.integer(1, 2);
-  vericone_hyperboloid cut{{0.6, 0.5, 0.5}, {}, sheets};
-  return {
-      BodyHandle(vericone_body_combined(Vector3d::Zero().eval().data(), axes.data(), rows.data(), &cut, 1)),
-      CombinedEllipsoid(Ellipsoid::from_axes(Vector3d::Zero(), axes, turn),
-                        {hyperboloid(sheets, {0.6, 0.5, 0.5}, turn)})};
-}
-
-Both hull(RandomBodies& random) {
-  const auto list = points(random, 9);
-  return {BodyHandle(vericone_body_hull(flat(list).data(), list.size())), HullBody(list)};
-}
-
-Both mesh(RandomBodies& random) {
-  const auto list = points(random, 8);
-  std::vector<Assembly::Triangle> triangles;
-  std::vector<std::uint32_t> corners;
-  for (std::uint32_t i = 0; i < 6; ++i) {
-    triangles.push_back({i, i + 1, i + 2});
-    corners.insert(corners.end(), {i, i + 1, i + 2});
-  }
-  return {BodyHandle(vericone_body_mesh(flat(list).data(), list.size(), corners.data(), triangles.size())),
-          Assembly::mesh(list, triangles)};
-}
-
-Both cloud(RandomBodies& random) {
-  const auto list = points(random, 7);
-  return {BodyHandle(vericone_body_cloud(flat(list).data(), list.size(), 0.25)), Assembly::cloud(list, 0.25)};
-}
-
-Both boxes(RandomBodies& random) {
-  std::vector<Box> list;
-  std::vector<Vector3d> ends;
-  for (int i = 0; i < 5; ++i) {
-    const Vector3d low = random.in_box(1), high = low + Vector3d(0.3, 0.2, 0.4);
-    list.push_back({low, high});
-    ends.insert(ends.end(), {low, high});
-  }
-  return {BodyHandle(vericone_body_boxes(flat(ends).data(), list.size())), Assembly::boxes(list)};
-}
-
-Both pieces(RandomBodies& random) {
-  const Both one = ellipsoid(random), other = combined(random);
-  const vericone_body* list[] = {one.c.get(), other.c.get()};
-  return {BodyHandle(vericone_body_union(list, 2)),
-          vericone::Body::pieces({*one.cpp.quadric(), *other.cpp.quadric()})};
-}
-
-Both hulls(RandomBodies& random) {
-  const Both one = hull(random);
-  const Vector3d low(-0.5, -1.5, 0.2), high(0.5, -0.6, 0.7);
-  const BodyHandle box(vericone_body_box(low.data(), high.data()));
-  const vericone_body* list[] = {one.c.get(), box.get()};
-  return {BodyHandle(vericone_body_union(list, 2)),
-          Assembly::polyhedra({*one.cpp.hull(), HullBody::box(low, high)})};
-}
-
-constexpr auto kKinds = {ellipsoid, combined, hull, mesh, cloud, boxes, pieces, hulls};
-
-void expect_same(const std::optional<Vector3d>& expected, const double* found) {
-  for (int k = 0; k < 3; ++k) {
-    if (expected)
-      EXPECT_EQ((*expected)(k), found[k]);
-    else
-      EXPECT_TRUE(std::isnan(found[k]));
-  }
-}
-void expect_same(double expected, double found) {
-  EXPECT_EQ(std::bit_cast<std::uint64_t>(expected), std::bit_cast<std::uint64_t>(found));
-}
+using c_test::expect_same;  // beside those below
 
 constexpr int kVelocities = 2;
 
@@ -173,6 +60,8 @@ void expect_same_answers(RandomBodies& random, const Pair& cpp, const vericone_p
                    u = random.in_box(0.1);
     all.insert(all.end(), v.begin(), v.end());
     EXPECT_EQ(vericone_pair_verdict(c, v.data(), u.data()), int(cpp.verdict(v, u)));
+    const auto rung = cpp.rung(v, u);
+    EXPECT_EQ(vericone_pair_rung(c, v.data(), u.data()), rung ? int(*rung) : int(VERICONE_CERTIFIED));
     for (const Horizon& horizon : {Horizon{0, 0.5}, Horizon{0, 2}, Horizon{1, 3}, Horizon{}})
       EXPECT_EQ(vericone_pair_verdict_within(c, v.data(), u.data(), horizon.from, horizon.until),
                 int(cpp.verdict(v, u, horizon)));

@@ -361,6 +361,7 @@ COMMANDS = [
     ("a negative error of poses", ["scan", "FILE"], PIECES_SCENE + LIDARS + "pose_error: {position: -1}\n"),
     ("a scan of an ellipsoid", ["scan", "FILE"], SCENE + LIDARS),
     ("a scan of a hull", ["scan", "FILE"], PIECES_SCENE + LIDARS),
+    ("a page that would be a folder", ["view", "FILE", "--out", "."], SCENE),
     ("a gallery of nothing", ["gallery"], None),
     ("a gallery with a large radius", ["gallery", "nowhere.obj", "--radius", "2"], None),
     ("cases that do not exist", ["query", "nowhere.jsonl"], None),

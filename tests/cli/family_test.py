@@ -101,10 +101,10 @@ class Family(unittest.TestCase):
                 self.assertRegex(text, r"[ ,]%s[ ,\n]" % option, name)
 
     def test_options_mean_the_same_everywhere(self):
-        have = {"--quiet": "cone query law estimate accuracy signmap gallery shapes reach certify simulate campaign swarm trials claims figures pursue scan fit "
-                           "track verify",
-                "--json": "cone query law estimate accuracy signmap gallery shapes reach certify simulate campaign swarm trials claims figures pursue scan fit "
-                          "track verify",
+        have = {"--quiet": "cone query law estimate accuracy signmap gallery shapes view reach certify simulate campaign swarm trials claims figures pursue scan "
+                           "fit track verify",
+                "--json": "cone query law estimate accuracy signmap gallery shapes view reach certify simulate campaign swarm trials claims figures pursue scan "
+                          "fit track verify",
                 "--out": "cone estimate accuracy signmap gallery shapes simulate campaign swarm trials claims figures pursue scan fit track",
                 "--no-figures": "cone accuracy signmap gallery shapes simulate campaign swarm trials pursue scan fit track",
                 "--threads": "cone query accuracy gallery campaign swarm trials pursue verify",

@@ -26,6 +26,7 @@ from manual import commands, help_of  # noqa: E402
 EXAMPLES = {
     "cone": "cone docs/examples/source-6.5.yaml --method slice --planes 72",
     "query": "query docs/examples/cases.jsonl --rung",
+    "view": "view docs/examples/first.yaml --quiet",
     "merge": "merge out/part-1 out/part-2 --no-figures --out out/whole",
     "bands": "bands docs/examples/bands.jsonl",
     "avoid": "avoid docs/examples/avoid.jsonl",

@@ -47,6 +47,8 @@ const std::vector<CatalogueEntry>& catalogue() {
       core(kCones, "cone", "The collision cone of one scene",
            {"cone scene.yaml --out out/first", "cone scene.yaml --method slice --planes 72 --json"}, "", "",
            kNothing),
+      core(kCones, "view", "A scene as a page for any browser, which answers for every velocity, exactly",
+           {"view scene.yaml --out out/scene.html", "view scene.yaml --open"}, "", "", kNothing),
       core(kCones, "bands", "Which headings, speeds and climb rates are safe, one JSON object a line",
            {"bands docs/examples/bands.jsonl", "bands - < cases.jsonl"}, "",
            "of a line: it says so, the others are answered", ""),

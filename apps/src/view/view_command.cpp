@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <vericone/geometry/error.h>
+#include <vericone/work/staged_folder.h>
+#include <filesystem>
+#include <iostream>
+#include <string>
+
+#include "commands.h"
+#include "json/json_value.h"
+#include "output/output_file.h"
+#include "view/page_file.h"
+#include "view/scene_page.h"
+
+namespace vericone {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct ViewOptions {
+  std::string scene, out = "out/view.html";
+  bool open = false, json = false;
+};
+
+/// `vericone view`: a page that shows a scene and answers for any velocity. Returns the exit status.
+int run_view(const ViewOptions& options, std::ostream& out) {
+  const fs::path file = options.out;
+  if (!file.has_filename() || fs::is_directory(file))
+    throw InputError("--out", options.out, "the name of a file for the page");
+  const fs::path folder = file.parent_path();
+  work::StagedFolder stage(folder.empty() ? "." : folder, "--out");
+  const std::string title =
+      options.scene == "-" ? "standard input" : fs::path(options.scene).filename().string();
+  const std::string page = page_with(scene_page(scenes::read_scene(options.scene), title));
+  write_whole(stage.path() / file.filename(), page);
+  stage.publish();
+  if (options.json)
+    out << Json{{"page", options.out}, {"bytes", page.size()}}.dump() << '\n';
+  else
+    out << "page                " << options.out << ", " << (page.size() + 500) / 1000 << " kB\n";
+  if (options.open) open_in_browser(file);
+  return 0;
+}
+
+}  // namespace
+
+int view_command(CommandLine& line) {
+  ViewOptions view;
+  line.option("scene", view.scene, "Scene file, YAML (docs/reference/formats.md); - for standard input")
+      .required();
+  line.option("--out", view.out, "File for the page");
+  line.flag("--open", view.open, "Show it in the browser (xdg-open)");
+  line.flag("--json", view.json, "Print JSON");
+  line.quiet();
+  line.read();
+  return run_view(view, std::cout);
+}
+
+}  // namespace vericone
