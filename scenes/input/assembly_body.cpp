@@ -14,6 +14,7 @@
 #include "json/json_value.h"
 #include "robot/robot_body.h"
 #include "solids/convex_body.h"
+#include "solids/slab_body.h"
 
 namespace vericone::input {
 namespace {
@@ -295,6 +296,7 @@ const std::vector<BodyKind>& body_kinds() {
         cloud(), octree(), of_file("hull", file_rows("hull", "File of points: their solid convex hull.")),
         hull_of_points()};
     for (BodyKind& kind : convex_kinds()) all.push_back(std::move(kind));
+    for (BodyKind& kind : slab_kinds()) all.push_back(std::move(kind));
     all.push_back(robot_kind());
     return all;
   }();

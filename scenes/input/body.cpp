@@ -107,7 +107,8 @@ void require_space(const Json& scene) {
 /// margin there.
 bool is_flat(const Json& agent, const Json& obstacle) {
   const auto in_space = [](const Json& body) {
-    return dimension(body) == Dimension::spatial || is_pieces_body(body) || is_union(body);
+    return dimension(body) == Dimension::spatial ||
+           (!is_flat_word(body) && (is_pieces_body(body) || is_union(body)));
   };
   const auto own = [](const Json& body) {
     return is_flat_word(body) || (dimension(body) == Dimension::planar && body.contains("margin"));

@@ -95,7 +95,6 @@ Json body_schema() {
   fields["velocity"]["description"] =
       "In scenes and cases another way to write `agent_velocity` or `obstacle_velocity`.";
   fields.update(motion_schema());
-  fields.update(slab_schema());
   Json names = values();
   names["hyperboloid"] = hyperboloid_schema();
   names["hyperbola"] = hyperbola_schema();

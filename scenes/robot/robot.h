@@ -25,10 +25,11 @@ struct MeshFile {
   std::filesystem::path folder = {};
 };
 
-/// One of a link's, where it stands in the link's frame: a convex body or a mesh.
+/// One of a link's, where it stands in the link's frame: a convex body, what is behind a plane, or a mesh.
 struct Geometry {
   Pose pose;
   std::optional<Convex> body;
+  std::optional<Eigen::Vector3d> plane;  // through the pose's origin: its normal, of length 1
   MeshFile mesh;
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "robot/robot_body.h"
 
+#include <vericone/cones/slab.h>
 #include <vericone/files/files.h>
 #include <algorithm>
 #include <map>
@@ -19,6 +20,7 @@ struct RobotFields : PlaceFields {
   std::map<std::string, double> joints;
   std::map<std::string, std::string> packages;
   std::vector<std::string> links;
+  std::optional<double> extent;
   Shown shown = Shown::collision;
 };
 
@@ -69,6 +71,15 @@ class RobotPieces {
     const Pose pose = composed(link, one.pose);
     if (one.body) {
       convexes_.push_back(in_world(*one.body, pose));
+      return;
+    }
+    if (one.plane) {
+      if (!fields_.extent)
+        throw InputError(
+            "extent", "nothing",
+            "given beside a <plane>, metres: how far from its origin the ground behind it counts");
+      const HullBody ground = clipped({*one.plane}, Vector3d::Zero(), *fields_.extent);
+      convexes_.push_back(in_world(Convex::rounded(ground, 0), pose));
       return;
     }
     // What is mirrored is gone round the other way, so that it still looks outwards.
@@ -169,7 +180,7 @@ SceneBody robot_of(const RobotFields& fields, const std::filesystem::path& folde
                                              " pieces (" +
                                              std::filesystem::path(fields.file).filename().string() + ")"};
   } catch (const InputError& e) {
-    for (const char* own : {"joints", "links", "geometry"})
+    for (const char* own : {"joints", "links", "geometry", "extent"})
       if (e.field().starts_with(own)) throw;
     const bool line = e.field().starts_with("line ");
     throw InputError("robot", fields.file + (line ? ", " + e.field() : "") + ": " + e.value(),
@@ -192,6 +203,9 @@ BodyKind robot_kind() {
            "Which shapes of the links.")
       .row("links", &R::links, list("names of links", text("the name of a link")), "These alone.",
            absent("all"))
+      .row("extent", &R::extent, positive("m"),
+           "Of SDF's planes, which are half-spaces: the part that counts, as of a `half_space`.",
+           absent("a plane is refused"))
       .row("packages", &R::packages, by_name<std::string>("folders by the names of packages", file_name()),
            "Where `package://NAME/...` and `model://NAME/...` are, relative to the file that says so.",
            absent("none"));

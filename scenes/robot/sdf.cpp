@@ -128,10 +128,13 @@ Geometry sdf_geometry(const Element& owner) {
     if (const Element* scale = shape.child("scale"))
       result.mesh.scale = vector_of<3>(scale->text, scale->line, "scale");
   } else if (shape.name == "plane") {
-    refuse(shape.line, "<plane>", "a body that ends somewhere: a box of the ground that counts");
+    result.mesh.line = shape.line;
+    result.plane = Vector3d::UnitZ();
+    if (const Element* normal = shape.child("normal"))
+      result.plane = unit_axis(vector_of<3>(normal->text, normal->line, "normal"), normal->line);
   } else {
     refuse(shape.line, "<" + shown_name(shape.name) + ">",
-           "box, sphere, cylinder, capsule, cone, ellipsoid or mesh");
+           "box, sphere, cylinder, capsule, cone, ellipsoid, plane or mesh");
   }
   return result;
 }

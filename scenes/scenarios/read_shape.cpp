@@ -144,8 +144,12 @@ simulation::RigidShape read_file_body(const Json& value, const std::string& path
   if (value.contains("hull")) return read_hull(value, path, folder, reading);
   scenes::SceneBody body = input::read_pieces_body(value, path, folder);
   reading = std::move(body.reading);
-  if (const HullBody* hull = body.hull())  // a box
-    return {input::within(path, [&] { return in_world(*hull, body.placed.pose); })};
+  if (const HullBody* hull = body.hull()) {
+    const HullBody there = input::within(path, [&] { return in_world(*hull, body.placed.pose); });
+    // Of a hull pilots look at the reference point; that of the ground says nothing, its middle does.
+    if (value.contains("box")) return {there};
+    return {Placed(Assembly::polyhedra({there}))};
+  }
   return {std::move(body.placed)};
 }
 

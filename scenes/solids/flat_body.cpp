@@ -3,6 +3,7 @@
 
 #include <vericone/files/files.h>
 #include <vericone/internal/scenes/words.h>
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <optional>
@@ -60,14 +61,42 @@ const Fields<FlatFields>& flat_fields() {
   return fields;
 }
 
+/// The convex parts of a raised body, in the world.
+std::vector<Convex> parts_of(const Placed& raised) {
+  const Body& body = raised.body;
+  std::vector<Convex> parts;
+  if (const Assembly* pieces = body.assembly())
+    for (std::size_t i = 0; i < pieces->size(); ++i) parts.push_back(pieces->convex_piece(i));
+  else if (body.hull())
+    parts.push_back(Convex::rounded(*body.hull(), 0));
+  else if (body.convex())
+    parts.push_back(*body.convex());
+  else
+    parts.push_back(Convex::rounded(body.quadric()->ellipsoid(), 0));
+  for (Convex& part : parts) part = in_world(part, raised.pose);
+  return parts;
+}
+
+/// Polygons alone are hulls, which are faster.
+Body union_of(const std::vector<Convex>& parts) {
+  if (!std::ranges::all_of(parts, &Convex::is_hull)) return Assembly::convexes(parts);
+  std::vector<HullBody> hulls;
+  for (const Convex& part : parts) hulls.emplace_back(part.corners());
+  return Assembly::polyhedra(std::move(hulls));
+}
+
 /// Before its height is known.
 struct Flat {
   FlatFields read;
+  std::vector<Flat> pieces;              // of a union
+  std::optional<SceneBody> slab;         // the part of one
   std::optional<CombinedEllipse> conic;  // else a polygon or a stadium
   double size = 0;                       // m, no less than that of its bounds
 
   SceneBody raised_to(double height, const std::string& path) const {
     return within(path, [&] {
+      if (!pieces.empty()) return joined(height);
+      if (slab) return SceneBody{Placed(swollen(slab->placed.body, read.margin)), named(slab->name)};
       if (conic) {
         const Body body = swollen(Body(raised(*conic, height)), read.margin);
         return SceneBody{body, named(conic->is_ellipsoid() ? "ellipse" : "combined conic")};
@@ -103,15 +132,34 @@ struct Flat {
     }
   }
 
+  SceneBody joined(double height) const {
+    std::vector<Convex> parts;
+    for (std::size_t i = 0; i < pieces.size(); ++i)
+      for (Convex& part : parts_of(pieces[i].raised_to(height, at("pieces", i)).placed))
+        parts.push_back(std::move(part));
+    return SceneBody{Placed(swollen(union_of(parts), read.margin)),
+                     named("union of " + std::to_string(pieces.size()) + " pieces")};
+  }
+
   std::string named(const std::string& name) const {
     return read.margin > 0 ? name + " with a margin of " + scenes::brief(read.margin) + " m" : name;
   }
 };
 
+/// Whether a piece is one of the plane, by its word or by the numbers of its center.
+bool is_flat_union(const Json& body) {
+  if (!body.contains("pieces") || !body["pieces"].is_array()) return false;
+  return std::ranges::any_of(body["pieces"], [](const Json& piece) {
+    if (is_flat_word(piece)) return true;
+    if (!piece.is_object() || !piece.contains("center")) return false;
+    return piece["center"].is_array() && piece["center"].size() == 2;
+  });
+}
+
 Flat read_flat(const Json& value, const std::string& path) {
   require_object(value, path);
   Flat flat;
-  if (is_flat_word(value)) {
+  if (value.contains("polygon") || value.contains("stadium")) {
     flat.read = flat_fields().read(value, path);
     if (value.contains("polygon") && value.contains("stadium"))
       throw InputError(join(path, "stadium"), quoted(value["stadium"]), "left out beside a polygon");
@@ -127,6 +175,25 @@ Flat read_flat(const Json& value, const std::string& path) {
   if (value.contains("margin")) {
     flat.read.margin = not_negative("m").read(value["margin"], join(path, "margin"));
     bare.erase("margin");
+  }
+  if (is_flat_union(bare)) {
+    require_known(bare, path, {"pieces"});
+    for (std::size_t i = 0; i < bare["pieces"].size(); ++i) {
+      const std::string field = at(join(path, "pieces"), i);
+      flat.pieces.push_back(read_flat(bare["pieces"][i], field));
+      const Flat& piece = flat.pieces.back();
+      if (piece.conic && !piece.conic->is_ellipsoid())
+        throw InputError(field, "an ellipse with hyperbolas", "a convex body of the plane, or a polygon");
+      const double off = (piece.conic ? piece.conic->center() : piece.read.center).norm();
+      flat.size = std::max(flat.size, piece.size + 2 * (off + flat.read.margin));
+    }
+    return flat;
+  }
+  if (is_flat_slab(bare)) {
+    flat.slab = read_flat_slab(bare, path);
+    const Box bounds = flat.slab->placed.body.bounds();
+    flat.size = 2 * (bounds.low.cwiseAbs().cwiseMax(bounds.high.cwiseAbs()).maxCoeff() + flat.read.margin);
+    return flat;
   }
   flat.conic = read_planar_body(bare, path);
   flat.size = 2 * (flat.conic->ellipsoid().semi_axes().maxCoeff() + flat.read.margin);
@@ -152,11 +219,12 @@ std::vector<Vector2d> outline_of(const Convex& raised) {
 }  // namespace
 
 bool is_flat_word(const Json& body) {
-  return body.is_object() && (body.contains("polygon") || body.contains("stadium"));
+  return body.is_object() &&
+         (body.contains("polygon") || body.contains("stadium") || is_flat_slab(body) || is_flat_union(body));
 }
 
 bool is_word_of_scenes(const std::string& field) {
-  return field == "polygon" || field == "holes" || field == "stadium" || slab_schema().contains(field);
+  return field == "polygon" || field == "holes" || field == "stadium";
 }
 
 void refuse_words_of_scenes(const Json& body, const std::string& path) {
@@ -165,7 +233,6 @@ void refuse_words_of_scenes(const Json& body, const std::string& path) {
       throw InputError(join(path, word), quoted(body[word]),
                        "a body in space, of a union a part of one: polygons and stadiums are bodies of "
                        "scenes and cases in the plane");
-  refuse_slab(body, path);
 }
 
 Scene flat_scene(const Json& agent, const Json& obstacle) {
@@ -187,18 +254,8 @@ Json flat_schema() { return flat_fields().schema(); }
 Json stadium_schema() { return stadium_fields().schema(); }
 
 std::vector<std::vector<Vector2d>> flat_outlines(const Placed& raised) {
-  const Body& body = raised.body;
-  std::vector<Convex> parts;
-  if (const Assembly* pieces = body.assembly())
-    for (std::size_t i = 0; i < pieces->size(); ++i) parts.push_back(pieces->convex_piece(i));
-  else if (body.hull())
-    parts.push_back(Convex::rounded(*body.hull(), 0));
-  else if (body.convex())
-    parts.push_back(*body.convex());
-  else
-    parts.push_back(Convex::rounded(body.quadric()->ellipsoid(), 0));
   std::vector<std::vector<Vector2d>> outlines;
-  for (const Convex& part : parts) outlines.push_back(outline_of(in_world(part, raised.pose)));
+  for (const Convex& part : parts_of(raised)) outlines.push_back(outline_of(part));
   return outlines;
 }
 

@@ -183,15 +183,15 @@ class Schemas(unittest.TestCase):
         # Every kind of body names its own fields; together they are the schema's, but for what every body may have.
         fields = {"file", "velocity"}
         for kind in ("center: [9, 0, 0], semi_axes: [1, 1, 1]", "mesh: a", "cloud: a", "octree: a", "hull: a", "points: []",
-                     "cylinder: {}", "capsule: {}", "cone: {}", "frustum: {}", "box: {}", "disc: {}", "robot: a", "pieces: []",
-                     "file: a"):
+                     "cylinder: {}", "capsule: {}", "cone: {}", "frustum: {}", "box: {}", "disc: {}", "half_space: {}", "slab: {}",
+                     "robot: a", "pieces: []", "file: a"):
             fields |= self.taken("check", pair % f"{{{kind}, zzz: 1}}", "obstacle.zzz")
         flat = "agent: {center: [0, 0], semi_axes: [1, 1]}\nobstacle: {center: [9, 0], semi_axes: [1, 1], zzz: 1}\n"
         fields |= self.taken("check", flat, "obstacle.zzz")
         words = "agent: {center: [0, 0], semi_axes: [1, 1]}\nobstacle: {polygon: [], zzz: 1}\n"
         of_scenes = self.taken("check", words, "obstacle.zzz") - fields
         self.assertEqual(of_scenes, {"polygon", "holes", "stadium"})
-        of_queries = {"spin", "acceleration", "braking", "half_space", "slab"}
+        of_queries = {"spin", "acceleration", "braking"}
         self.assertEqual(fields | of_scenes | of_queries, set(body["$defs"]["body"]["properties"]))
         # Where no field says the kind, that one may be misspelt: all are named.
         self.assertEqual(self.taken("check", pair % "{center: [9, 0, 0], zzz: 1}", "obstacle.zzz"),

@@ -288,6 +288,54 @@ TEST(FlatBodies, MarginsAreTheSumWithADisc) {
   }
 }
 
+/// A union is met first when the first of its pieces is; a wall as far as it goes.
+TEST(FlatBodies, UnionsAreMetWhereTheirPiecesAre) {
+  testing::Random random(4113);
+  SCOPED_TRACE(random.trace());
+  const std::string agent = "agent: {stadium: {radius: 0.5, length: 1}, center: [-9, 0.25], rotation: 0.4}\n";
+  const auto pair = [&](const std::string& obstacle) {
+    const Scene scene = scene_of_text(agent + "obstacle: " + obstacle, "none.yaml");
+    EXPECT_TRUE(scene.in_plane);
+    return scene.pair();
+  };
+  const std::string pieces[] = {"{polygon: [[0, 0], [3, 0], [3, 3], [2, 3], [2, 1], [0, 1]], center: [1, 2]}",
+                                "{stadium: {radius: 1, length: 3}, center: [0, -4], rotation: 1}",
+                                "{center: [4, 0], semi_axes: [1, 2], rotation: 0.2}",
+                                "{half_space: {normal: [-1, 2], offset: -21, extent: 40}}"};
+  std::string all = pieces[0];
+  for (int k = 1; k < 4; ++k) all += ", " + pieces[k];
+  const Pair whole = pair("{pieces: [" + all + "]}");
+  std::vector<Pair> each;
+  for (const std::string& piece : pieces) each.push_back(pair(piece));
+  double least = std::numeric_limits<double>::infinity();
+  for (const Pair& one : each) least = std::min(least, one.distance());
+  EXPECT_NEAR(whole.distance(), least, 1e-9);
+  int met = 0, missed = 0;
+  for (int i = 0; i < 100; ++i) {
+    const double angle = random.uniform(-1.2, 1.2);
+    const Vector3d w(std::cos(angle), std::sin(angle), 0), still = Vector3d::Zero();
+    // Of the first of them, what is proved of its time.
+    double earliest = std::numeric_limits<double>::infinity(), latest = earliest;
+    for (const Pair& one : each)
+      if (const auto contact = one.contact(w, still)) {
+        earliest = std::min(earliest, contact->earliest);
+        latest = std::min(latest, contact->latest);
+      }
+    const bool meets = std::isfinite(earliest);
+    EXPECT_EQ(whole.verdict(w, still), meets ? Verdict::in : Verdict::out);
+    ++(meets ? met : missed);
+    if (!meets) continue;
+    const auto contact = whole.contact(w, still);
+    EXPECT_LE(contact->earliest, latest);
+    EXPECT_GE(contact->latest, earliest);
+    EXPECT_LT(contact->latest - contact->earliest, 1e-6);
+    EXPECT_LT(latest - earliest, 1e-6);
+  }
+  EXPECT_GT(met, 20);
+  EXPECT_GT(missed, 20);
+  EXPECT_NEAR(pair("{pieces: [" + pieces[1] + "], margin: 0.5}").distance(), each[1].distance() - 0.5, 1e-9);
+}
+
 TEST(FlatBodies, TurnAboutTheirOwnOrigin) {
   const Scene turned = scene_of_text(
       "agent: {center: [9, 0], semi_axes: [1, 1]}\n"

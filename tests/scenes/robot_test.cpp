@@ -283,9 +283,9 @@ TEST(Robot, ThatIsNoneIsRefusedInOneLine) {
        "name='l'>"
        "<pose relative_to='a'/></link></model></sdf>",
        "in a circle"},
-      {"<sdf><model name='m'><link "
-       "name='l'><collision><geometry><plane/></geometry></collision></link></model></sdf>",
-       "that ends somewhere"},
+      {"<sdf><model name='m'><link name='l'><collision><geometry><plane><normal>0 0 "
+       "0</normal></plane></geometry></collision></link></model></sdf>",
+       "a direction"},
       {"<sdf><include><uri>none</uri></include></sdf>", "no such file"},
       {"<sdf><include><uri>https://models/robot</uri></include></sdf>", "a file's name"},
       {"<sdf><include><uri>x.urdf</uri></include></sdf>", "in the included file itself"},
@@ -303,6 +303,16 @@ TEST(Robot, ThatIsNoneIsRefusedInOneLine) {
   EXPECT_THAT(folder.refusal("{robot: arm.urdf, joints: {wrist: 1}}"), HasSubstr("shoulder, elbow, lift"));
   EXPECT_THAT(folder.refusal("{robot: arm.urdf, links: [foot]}"), HasSubstr("obstacle.links"));
   EXPECT_THAT(folder.refusal("{robot: none.urdf}"), HasSubstr("no such file"));
+  // The ground of a world, in a frame that leans: what is behind its plane.
+  folder.write(
+      "ground.sdf",
+      "<sdf><model name='m'><link name='l'><pose>0 0 1 0 0 0</pose><collision name='c'><geometry><plane>"
+      "<normal>0 3 4</normal></plane></geometry></collision></link></model></sdf>");
+  EXPECT_THAT(folder.refusal("{robot: ground.sdf}"), HasSubstr("obstacle.extent"));
+  const SceneBody ground = folder.body("{robot: ground.sdf, extent: 50}");
+  EXPECT_NEAR(ground.placed.support({0, 0.6, 0.8}), 0.8, 1e-12);
+  EXPECT_NEAR(ground.placed.support({0, -0.6, -0.8}), 50 - 0.8, 1e-9);
+  EXPECT_NEAR(ground.placed.support({1, 0, 0}), 50, 1e-9);
   folder.write("deep.urdf", std::string(100'000, '<'));
   EXPECT_THAT(folder.refusal("{robot: deep.urdf}"), HasSubstr("deep.urdf"));
   std::string deep;

@@ -24,9 +24,11 @@
 #include "cone/planar_cone.h"
 #include "cone/quadric_cone.h"
 #include "cone/scene_certificate.h"
+#include "cone/slab_cone.h"
 #include "cone/verdict_text.h"
 #include "glb/scene_glb.h"
 #include "input/body.h"
+#include "input/scene.h"
 #include "input/stopwatch.h"
 #include "json/json_value.h"
 #include "output/figures.h"
@@ -34,6 +36,7 @@
 #include "output/output_file.h"
 #include "output/slice_json.h"
 #include "picture/engagements.h"
+#include "solids/slab_body.h"
 #include "work/provenance.h"
 #include "work/threads.h"
 
@@ -203,7 +206,10 @@ int run_cone(const ConeCommand& options, std::ostream& out) {
     throw InputError("--certificate", "given alone",
                      "given with --json or --cases: it is a part of the JSON");
   if (!options.cases) {
-    const scenes::Scene scene = scenes::read_scene(options.scene);
+    Json fields = input::read_scene_fields(options.scene);
+    const auto slab = input::take_slab(fields);
+    const scenes::Scene scene = input::scene_of(fields, options.scene);
+    if (slab) return run_slab_cone(options, scene, *slab, out), 0;
     if (options.certificate)
       out << with_certificate(options, scene, {}).dump(1) << '\n';
     else
@@ -219,9 +225,14 @@ int run_cone(const ConeCommand& options, std::ostream& out) {
   each.json = true;
   const std::filesystem::path folder =
       options.scene == "-" ? "" : std::filesystem::path(options.scene).parent_path();
-  const auto answer = [&](const Json& value) {
+  const auto answer = [&](const Json& given) {
+    Json value = given;
+    const auto slab = input::take_slab(value);
     const scenes::Scene scene = input::read_engagement(value, input::Velocities::optional, {"id"}, folder);
-    return with_certificate(each, scene, value.contains("id") ? value["id"] : Json());
+    if (!slab) return with_certificate(each, scene, value.contains("id") ? value["id"] : Json());
+    std::ostringstream text;
+    run_slab_cone(each, scene, *slab, text);
+    return Json::parse(text.str());
   };
   return answer_cases(options.scene, answer, out);
 }

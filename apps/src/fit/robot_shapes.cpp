@@ -86,6 +86,7 @@ std::vector<RobotShapes::Link> RobotShapes::links() const {
 
 void RobotShapes::add_mesh(const robot::Geometry& one, fitting::Sample& meshes) const {
   of_file(file_, [&] {
+    if (one.plane) robot::refuse(one.mesh.line, "<plane>", "left out: a fit is of what ends somewhere");
     try {
       const files::PointFile read = files::read_points(path_of(one.mesh));
       if (read.faces.empty()) robot::refuse(one.mesh.line, one.mesh.name + ", a cloud", "a mesh");

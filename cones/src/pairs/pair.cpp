@@ -149,8 +149,21 @@ struct Choose {
 
 }  // namespace
 
+namespace {
+
+/// An assembly of one hull that is turned is a hull: its own numbers are rounded once, and not those of what
+/// stands before it.
+Body simplest(const Placed& placed) {
+  const Assembly* pieces = placed.body.assembly();
+  const bool alone = pieces && pieces->kind() == PieceKind::hull && pieces->size() == 1;
+  return alone && !is_upright(placed.pose) ? Body(pieces->by_slot().hulls.front()) : placed.body;
+}
+
+}  // namespace
+
 FamilyPointer family_of(const Placed& agent, const Placed& obstacle, const PairOptions& options) {
-  return std::visit(Choose{agent.pose, obstacle.pose, options}, agent.body.shape(), obstacle.body.shape());
+  const Body a = simplest(agent), b = simplest(obstacle);
+  return std::visit(Choose{agent.pose, obstacle.pose, options}, a.shape(), b.shape());
 }
 
 }  // namespace pairs

@@ -145,10 +145,60 @@ std::vector<Side> sides_of(const Slab& slab) {
   std::vector<Side> sides;
   if (std::isfinite(slab.high)) sides.push_back({slab.normal, slab.high});
   if (std::isfinite(slab.low)) sides.push_back({-slab.normal, -slab.low});
+  // The square of a normal is to be a double. A power of two changes nothing else, where nothing is lost.
+  const int scale = -std::ilogb(slab.normal.cwiseAbs().maxCoeff());
+  const auto scaled = [&](double x) { return std::scalbn(x, scale); };
+  const auto kept = [&](double x) { return std::isfinite(scaled(x)) && std::scalbn(scaled(x), -scale) == x; };
+  const bool exact = std::abs(scale) > 300 && std::all_of(sides.begin(), sides.end(), [&](const Side& side) {
+                       return kept(side.height) && std::all_of(side.normal.begin(), side.normal.end(), kept);
+                     });
+  if (exact)
+    for (Side& side : sides) side = {side.normal.unaryExpr(scaled), scaled(side.height)};
   return sides;
 }
 
+/// Outwards until it is not within the side: by roundings.
+void move_out(Vector3d& corner, const Side& side) {
+  int k = 0;
+  side.normal.cwiseAbs().maxCoeff(&k);
+  const double size = corner.cwiseAbs().maxCoeff() * std::numeric_limits<double>::epsilon();
+  for (double step = size / 8;
+       std::isfinite(step) &&
+       dot(exact::to_rational<3>(side.normal), exact::to_rational<3>(corner)) < Rational(side.height);
+       step *= 2)
+    corner(k) += std::copysign(std::max(step, std::numeric_limits<double>::denorm_min()), side.normal(k));
+}
+
 }  // namespace
+
+HullBody clipped(const Slab& slab, const Vector3d& about, double extent) {
+  const std::vector<Side> sides = sides_of(slab);
+  if (!about.allFinite()) throw InputError("about", "a number that is not finite", "finite (m)");
+  if (!(extent > 0) || std::isinf(extent)) throw InputError("extent", to_text(extent), "positive (m)");
+  const Vector3d n = sides.front().normal.stableNormalized();
+  int axis = 0;
+  n.cwiseAbs().maxCoeff(&axis);
+  const bool along_axis = std::abs(n(axis)) == 1;
+  const Vector3d u = along_axis ? Vector3d(Vector3d::Unit((axis + 1) % 3)) : n.unitOrthogonal();
+  const Vector3d v = n.cross(u), foot = about - n.dot(about) * n;
+  const double length = sides.front().normal.stableNorm(), near = sides.front().height / length,
+               other = sides.size() == 2 ? -sides.back().height / length : near;
+  if (!(near - extent < near))
+    throw InputError("extent", to_text(extent), "no less than the digits of the plane's place");
+  // By more than roundings may take away.
+  const double slack = 0x1p-48 * (about.cwiseAbs().maxCoeff() + std::abs(near) + std::abs(other));
+  const double wide = extent * (1 + 0x1p-48) + slack, far = sides.size() == 2 ? other : near - wide;
+  std::vector<Vector3d> corners;
+  for (const double height : {near, far})
+    for (const double x : {-wide, wide})
+      for (const double y : {-wide, wide}) {
+        Vector3d& corner = corners.emplace_back(foot + height * n + x * u + y * v);
+        if (!corner.allFinite()) throw InputError("extent", to_text(extent), "one whose corners are doubles");
+        if (height == near) move_out(corner, sides.front());
+        if (height == far && sides.size() == 2) move_out(corner, sides.back());
+      }
+  return HullBody(std::move(corners));
+}
 
 struct SlabPair::Data {
   std::vector<Side> sides;

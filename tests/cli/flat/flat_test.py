@@ -125,10 +125,40 @@ class Flat(unittest.TestCase):
                 "obstacle: {half_space: {normal: [0, 0, 1], offset: 0}}\n")
         answer = run("query", "--scene", self.write(text))
         self.assertEqual(json.loads(answer.stdout)["time_to_contact"], 4)
-        refused = run("cone", self.write(text))
-        self.assertEqual(refused.returncode, 2)
-        self.assertIn("obstacle.half_space", refused.stderr)
-        self.assertEqual(len(refused.stderr.splitlines()), 1)
+        cone = self.cone(text)
+        self.assertEqual((cone["axis"], cone["half_angle"]), ([0, 0, -1], math.pi / 2))
+        self.assertEqual(cone["solid_angle"], 2 * math.pi)
+        self.assertEqual((cone["answer"]["verdict"], cone["answer"]["time_to_contact"]), ("in", 4))
+        text_of = run("cone", self.write(text)).stdout
+        self.assertIn("half-angle 90 degrees", text_of)
+        for option in ("--map", "--certificate"):
+            refused = run("cone", self.write(text), "--json", option)
+            self.assertEqual(refused.returncode, 2)
+            self.assertIn(option, refused.stderr)
+            self.assertEqual(len(refused.stderr.splitlines()), 1)
+        # In the plane, and its part, a body like others.
+        plane = ("agent: {stadium: {radius: 1, length: 2}, center: [0, 5]}\nobstacle: {half_space: %s}\n"
+                 "agent_velocity: [0, -1]\n")
+        cone = self.cone(plane % "{normal: [0, 1], offset: 1}")
+        self.assertEqual((cone["psi"], cone["theta_b"]), (math.pi, -math.pi / 2))
+        part = self.cone(plane % "{normal: [0, 1], offset: 1, extent: 1e6}")
+        self.assertAlmostEqual(math.pi - part["psi"], 2 * 3 / 1e6, 8)  # 3 m from its lowest point to the wall
+        self.assertAlmostEqual(part["answer"]["time_to_contact"], 3, 9)
+        self.assertEqual(cone["answer"]["time_to_contact"], 3)
+        both = self.cone("agent: {pieces: [{center: [0, 0, 5], semi_axes: [1, 1, 1]}, "
+                         "{center: [0, 0, -5], semi_axes: [1, 1, 1]}]}\nobstacle: {slab: {normal: [0, 0, 1], "
+                         "offsets: [-1, 1]}}\nagent_velocity: [1, 0, 0]\n")
+        self.assertEqual((both["axis"], both["solid_angle"], both["answer"]["verdict"]), (None, 4 * math.pi, "out"))
+        # Where no reader knows how far it is to go.
+        for name, scene in (("agent.half_space.extent", "agent: {half_space: {normal: [0, 0, 1], offset: 0}}\n"
+                             "obstacle: {box: {half_widths: [1, 1, 1]}}\n"),
+                            ("obstacle.pieces[0].half_space.extent",
+                             "agent: {box: {half_widths: [1, 1, 1]}}\n"
+                             "obstacle: {pieces: [{half_space: {normal: [0, 0, 1], offset: 0}}]}\n")):
+            refused = run("cone", self.write(scene))
+            self.assertEqual(refused.returncode, 2)
+            self.assertIn(name, refused.stderr)
+            self.assertEqual(len(refused.stderr.splitlines()), 1)
 
 
 if __name__ == "__main__":

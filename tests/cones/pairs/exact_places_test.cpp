@@ -292,5 +292,27 @@ TEST(ExchangedPairs, AgreeNextToAGrazeOfTurnedBodies) {
   EXPECT_GT(pairs, 20);
 }
 
+/// A hull that an assembly holds alone, turned by a quarter, which rounds nothing: 2^-60 m tell.
+TEST(ExactPlaces, ATurnedHullOfAnAssemblyLeavesTheOtherBodyAsItIs) {
+  Eigen::Matrix3d quarter;
+  quarter << 0, -1, 0, 1, 0, 0, 0, 0, 1;
+  const Placed box(HullBody::box({1, -1, -1}, {3, 1, 1}));
+  const Placed low(HullBody::box({1, -1, -3}, {3, 1, -1}));
+  const Assembly points = Assembly::polyhedra({HullBody::box({-1, -1, -1}, {1, 1, 1})});
+  for (const double off : {-0x1p-60, 0.0, 0x1p-60}) {
+    const Placed turned(points, Pose{{off, 0.5, 0.25}, quarter});
+    const Relation expected = off < 0   ? Relation::disjoint
+                              : off > 0 ? Relation::overlapping
+                                        : Relation::touching;
+    EXPECT_EQ(Pair(box, turned).relation(), expected) << off;
+    EXPECT_EQ(Pair(turned, box).relation(), expected) << off;
+    // Past its top, along x.
+    const Placed above(points, Pose{{-9, 0.5, off}, quarter});
+    const Verdict past = off < 0 ? Verdict::in : off > 0 ? Verdict::out : Verdict::on;
+    EXPECT_EQ(Pair(low, above).verdict({-1, 0, 0}, Vector3d::Zero()), past) << off;
+    EXPECT_EQ(Pair(above, low).verdict({1, 0, 0}, Vector3d::Zero()), past) << off;
+  }
+}
+
 }  // namespace
 }  // namespace vericone::exact_places

@@ -148,6 +148,118 @@ TEST(Slabs, AreTouchedExactly) {
   }
 }
 
+/// How far a body gets from a point, going straight.
+double farthest(const Placed& agent, const Vector3d& from, const Vector3d& w, double until) {
+  const Box bounds = agent.body.bounds();
+  const double size = bounds.low.cwiseAbs().cwiseMax(bounds.high.cwiseAbs()).norm();
+  return size +
+         std::max((agent.pose.position - from).norm(), (agent.pose.position + until * w - from).norm());
+}
+
+/// The part that an agent can reach meets it when the slab does: any kind of agent, its own time.
+TEST(Slabs, PartsOfThemAreMetAsTheyAre) {
+  RandomBodies random(4112);
+  SCOPED_TRACE(random.trace());
+  std::array<int, 6> seen{};
+  const int cases = campaign_size(60, 10'000);
+  for (int i = 0; i < cases; ++i) {
+    const Placed agent(solid(random), any_pose(random, random.uniform(0, 6)));
+    const bool axis = random.coin();
+    const Vector3d n = axis ? Vector3d((random.coin() ? 1 : -1) * Vector3d::Unit(i % 3))
+                            : Vector3d(random.uniform(0.1, 4) * random.rotation().col(2));
+    const double high = random.uniform(-4, 4) * n.norm(),
+                 low = random.coin() ? -kEver : high - random.uniform(0, 3) * n.norm();
+    const Slab slab{n, low, high};
+    const SlabPair whole(agent, slab);
+    const Vector3d about = random.in_box(2), foot = about + (high - n.dot(about)) / n.squaredNorm() * n;
+    const Vector3d w = random.in_box(1) - (i % 2) * 0.8 * n.normalized();
+    const double until = random.uniform(0, 12);
+    const double extent = (farthest(agent, foot, w, until) + 3) * random.uniform(1, 2);
+    const HullBody part = clipped(slab, about, extent);
+    for (const Vector3d& corner : part.points()) {  // sampled: all of the part is in it, and little else
+      EXPECT_LE(n.dot(corner), high + 1e-12 * n.norm() * (10 + extent));
+      EXPECT_GE(n.dot(corner), low - 1e-12 * n.norm() * (10 + extent));
+    }
+    const Vector3d u = n.unitOrthogonal(), v = n.normalized().cross(u);
+    for (int k = 0; k < 5; ++k) {
+      const double turn = random.uniform(0, 2 * M_PI),
+                   deep = std::isinf(low) ? extent : (high - low) / n.norm();
+      const Vector3d x = foot + extent * (std::cos(turn) * u + std::sin(turn) * v) -
+                         random.uniform(0, deep) * n.normalized();
+      EXPECT_EQ(Pair(Placed(Convex::point(x)), Placed(part)).relation(), Relation::overlapping) << i;
+    }
+    const Pair pair(agent, Placed(part));
+    const Verdict expected = whole.verdict(w, kStill, until);
+    EXPECT_EQ(pair.relation(), whole.relation()) << i;
+    EXPECT_EQ(pair.verdict(w, kStill, Horizon{0, until}), expected) << i;
+    ++seen[std::size_t(expected)];
+  }
+  for (const Verdict verdict : {Verdict::in, Verdict::out, Verdict::overlapping})
+    EXPECT_GT(seen[std::size_t(verdict)], cases / 12) << to_string(verdict);
+}
+
+TEST(Slabs, PartsOfThemAreTouchedExactlyAlongAxes) {
+  const Placed drum(Convex::cylinder(5, 4), Pose{{3, 1e3, 7}, Matrix3d::Identity()});
+  for (const double end : {5.0, std::nextafter(5, 6), std::nextafter(5, 4)}) {
+    const Placed ground(clipped({{0, 0, 1}, -kEver, end}, {900, 3, 40}, 4e3));
+    EXPECT_EQ(Pair(drum, ground).relation(), SlabPair(drum, {{0, 0, 1}, -kEver, end}).relation());
+    const Placed wall(clipped({{-4, 0, 0}, -32, 4 * end}, {5, 5, 5}, 4e3));
+    EXPECT_EQ(Pair(drum, wall).relation(), SlabPair(drum, {{-4, 0, 0}, -32, 4 * end}).relation());
+  }
+  // Where its own plane is no double the part is a rounding wider, never narrower.
+  const HullBody third = clipped({{0, 0, 3}, -kEver, 1}, kStill, 9);
+  EXPECT_GT(third.support({0, 0, 1}), 1. / 3);
+  EXPECT_LT(third.support({0, 0, 1}), 1. / 3 + 4e-15);
+  const auto field = [](const Slab& slab, const Vector3d& about, double extent) {
+    try {
+      static_cast<void>(clipped(slab, about, extent));
+    } catch (const InputError& e) {
+      return e.field();
+    }
+    return std::string();
+  };
+  EXPECT_EQ(field({}, kStill, 0), "extent");
+  EXPECT_EQ(field({}, kStill, kEver), "extent");
+  EXPECT_EQ(field({}, kStill, 1e308), "");
+  EXPECT_EQ(field({{1, 2, 3}}, kStill, 1.7e308), "extent");
+  EXPECT_EQ(field({{0, 0, 1}, -kEver, 1e20}, kStill, 1), "extent");
+  EXPECT_EQ(field({}, {0, kEver, 0}, 1), "about");
+  EXPECT_EQ(field({{0, 0, 0}}, kStill, 1), "slab.normal");
+}
+
+/// A normal's length counts with the heights, and with nothing else: powers of two change no bit.
+TEST(Slabs, NormalsHaveAnyLength) {
+  const Placed drum(Convex::cylinder(5, 4).swollen(0.5), Pose{{3, 1, 2}, Matrix3d::Identity()});
+  const Vector3d n(0.6, -0.3, 0.7);
+  const SlabPair usual(drum, {n, -1, 2});
+  ASSERT_EQ(usual.relation(), Relation::overlapping);
+  for (const int power : {-1040, -700, -400, 350, 500, 1000}) {
+    const auto scaled = [&](double x) { return std::ldexp(x, power); };
+    const SlabPair pair(drum, {n.unaryExpr(scaled), scaled(-1), scaled(2)});
+    EXPECT_EQ(pair.relation(), Relation::overlapping);
+    const auto depth = pair.penetration(), expected = usual.penetration();
+    ASSERT_TRUE(depth.has_value());
+    if (power > -1000) {  // below, the normal itself has fewer digits
+      EXPECT_EQ(depth->least, expected->least) << power;
+      EXPECT_EQ(depth->most, expected->most) << power;
+      EXPECT_EQ(depth->normal, expected->normal) << power;
+    }
+    EXPECT_NEAR(depth->most, expected->most, 1e-3) << power;
+    EXPECT_NEAR(depth->normal.norm(), 1, 1e-15) << power;
+    const Placed above(drum.body, Pose{{3, 1, 40}, Matrix3d::Identity()});
+    const auto there =
+                   SlabPair(above, {n.unaryExpr(scaled), scaled(-1), scaled(2)}).contact({0, 0, -1}, kStill),
+               then = SlabPair(above, {n, -1, 2}).contact({0, 0, -1}, kStill);
+    EXPECT_NEAR(there->time, then->time, 1e-2) << power;
+    EXPECT_LT(there->latest - there->earliest, 1e-12) << power;
+  }
+  const auto depth = SlabPair(Body(), {{0, 0, 1e-200}, -kEver, 0}).penetration();
+  EXPECT_EQ(depth->normal, Vector3d(0, 0, -1));
+  EXPECT_NEAR(depth->most, 1, 1e-14);
+  EXPECT_GE(depth->most, 1);
+  EXPECT_LE(depth->least, 1);
+}
+
 TEST(Slabs, AreNotMetAlongTheirPlane) {
   const SlabPair ground(Placed(Convex::cylinder(1, 2), Pose{{0, 0, 5}, Matrix3d::Identity()}),
                         Slab{{0, 0, 1}, -kEver, 0});

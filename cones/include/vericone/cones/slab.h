@@ -6,6 +6,7 @@
 #include <vericone/cones/pair.h>
 #include <vericone/cones/penetration.h>
 #include <vericone/geometry/body.h>
+#include <vericone/geometry/hull_body.h>
 #include <Eigen/Core>
 #include <limits>
 #include <memory>
@@ -15,11 +16,20 @@ namespace vericone {
 
 /// { x : low <= normal.x <= high }, metres in the world along a normal of length 1, else times its length. A
 /// half-space where low is -infinity or high infinity. It has no bounds, no middle and no ellipsoid around
-/// it, so it is no Body (docs/explanation/shapes.md).
+/// it, so it is no Body; clipped() gives one (docs/explanation/shapes.md).
 struct Slab {
   Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();
   double low = -std::numeric_limits<double>::infinity(), high = 0;
 };
+
+/// The part of a slab that counts, a box, for whatever takes a body: what is within `extent` (m) of the
+/// point of its plane below `about`, along the plane, of a half-space as deep. All of that part is in it: its
+/// corners are moved outwards by roundings, none where the normal is an axis of length 1. So while all of an
+/// agent stays within `extent` of that point, it meets the part exactly when it meets the slab (of normals
+/// that are no axes up to that rounding, never later); of a half-space, an agent that starts in front of it.
+/// Throws InputError as SlabPair does of a slab, and naming "extent" (not positive and finite, or below the
+/// digits of the plane's place) or "about".
+[[nodiscard]] HullBody clipped(const Slab& slab, const Eigen::Vector3d& about, double extent);
 
 /// A body against a slab: what Pair answers, in closed form, and all of it exact. The directions of w that
 /// lead to contact are an open half-space, { normal.w < 0 } of an agent above: moving along the plane never
