@@ -212,6 +212,9 @@ class Convexes : public AssemblyFamily {
     if (const auto found = oracle_->nearest_plane(start, end)) return plane_.tightened(*found, start, end);
     return plane_.found(start, end, meeting ? std::optional(meeting->normal) : std::nullopt);
   }
+  std::optional<Vector3d> touching_plane(const Vector3d& w, const Horizon& horizon) const override {
+    return convexes_.touching_plane(w, horizon);
+  }
   std::optional<Rung> rung(const Vector3d& v_a, const Vector3d& v_b) const override {
     Rung rung = convexes_.relation_rung();
     static_cast<void>(convexes_.verdict(v_a, v_b, &rung));

@@ -32,6 +32,10 @@ class Mirrored : public Family {
     if (plane) plane->normal *= -1;
     return plane;
   }
+  std::optional<Vector3d> touching_plane(const Vector3d& w, const Horizon& horizon) const override {
+    const auto normal = exchanged_->touching_plane(-w, horizon);
+    return normal ? std::optional(Vector3d(-*normal)) : std::nullopt;
+  }
   std::optional<Rung> rung(const Vector3d& v_a, const Vector3d& v_b) const override {
     return exchanged_->rung(v_b, v_a);
   }
@@ -81,6 +85,9 @@ class Moved : public Family {
   double gap(const Vector3d& n) const override { return pair_->gap(n); }
   std::optional<NearestPlane> nearest_plane(const Vector3d& start, const Vector3d& end) const override {
     return pair_->nearest_plane(start, end);
+  }
+  std::optional<Vector3d> touching_plane(const Vector3d& w, const Horizon& horizon) const override {
+    return pair_->touching_plane(w, horizon);
   }
   std::optional<Rung> rung(const Vector3d& v_a, const Vector3d& v_b) const override {
     return pair_->rung(v_a, v_b);

@@ -31,6 +31,13 @@ class Family {
     static_cast<void>(start), static_cast<void>(end);
     return std::nullopt;
   }
+  /// Of pairs that have it in closed form: the normal of a plane that touches the cone of a horizon beside w,
+  /// zero where w is in that, to rounding. Nothing is proved of it. Nothing of other pairs.
+  virtual std::optional<Eigen::Vector3d> touching_plane(const Eigen::Vector3d& w,
+                                                        const Horizon& horizon) const {
+    static_cast<void>(w), static_cast<void>(horizon);
+    return std::nullopt;
+  }
   virtual std::optional<Rung> rung(const Eigen::Vector3d&, const Eigen::Vector3d&) const {
     return std::nullopt;
   }

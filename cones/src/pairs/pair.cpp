@@ -243,6 +243,10 @@ std::optional<SafeHalfSpace> Pair::safe_half_space(const Vector3d& v_a, const Ve
   };
   if (warm)
     if (const auto half = safe(*warm)) return half;
+  if (const auto touching = family_->touching_plane(w, horizon)) {
+    const auto unit = normalised(*touching);
+    return unit ? safe(*unit) : std::nullopt;
+  }
   // For ever: until they have passed, by twice the way that is needed.
   const Vector3d start = horizon.from * w;
   const double speed = w.norm();

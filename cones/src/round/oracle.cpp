@@ -240,11 +240,36 @@ double RoundOracle::gap(const Vector3d& n) const noexcept {
 bool RoundOracle::surely_out(const Vector3d& v_a, const Vector3d& v_b,
                              const Horizon& horizon) const noexcept {
   const Vector3d w = v_a - v_b;
+  if (const auto known = upright_within(w, horizon)) return known == Membership::out;
   // Of the normal the largest entry is 1.
   const double slack = 32 * kUnitRoundoff * w.cwiseAbs().sum();
   if (normal_certified_ && slack > 1e-280 && (normal_.dot(w) + slack) * horizon.until < room_) return true;
   const auto membership = triage_membership(w);
   return (membership ? membership : interval_membership(v_a, v_b)) == Membership::out;
+}
+
+std::optional<Vector3d> RoundOracle::touching_plane(const Vector3d& w,
+                                                    const Horizon& horizon) const noexcept {
+  if (!scene_->upright) return std::nullopt;
+  return scene_->upright->touching_plane(std::ldexp(1.0, -scene_->exponent) * w, horizon.from, horizon.until,
+                                         scene_->slack);
+}
+
+std::optional<Membership> RoundOracle::upright_within(const Vector3d& w,
+                                                      const Horizon& horizon) const noexcept {
+  const double largest = w.cwiseAbs().maxCoeff();
+  if (!scene_->upright || !(largest > 1e-100 && largest < 1e100)) return std::nullopt;
+  const Vector3d n = *touching_plane(w, horizon);
+  if (n.isZero(0)) {
+    const Vector3d scaled = std::ldexp(1.0, -scene_->exponent) * w;
+    const bool meets = scene_->upright->surely_meets(scaled, horizon.from, horizon.until, scene_->slack);
+    return meets ? std::optional(Membership::in) : std::nullopt;
+  }
+  // n.x >= room for all x that are met, and t n.w is most at an end of the time.
+  const double room = gap(n), along = n.dot(w) + 8 * kUnitRoundoff * n.cwiseAbs().dot(w.cwiseAbs());
+  const double reached = along * (along > 0 ? horizon.until : horizon.from);
+  const bool misses = reached + 0x1p-50 * std::abs(reached) < room;
+  return misses ? std::optional(Membership::out) : std::nullopt;
 }
 
 std::optional<RoundOracle::Meeting> RoundOracle::meeting(const Vector3d& first,
@@ -256,6 +281,7 @@ std::optional<RoundOracle::Meeting> RoundOracle::meeting(const Vector3d& first,
 
 std::optional<Membership> RoundOracle::triage_within(const Vector3d& v_a, const Vector3d& v_b,
                                                      const Horizon& horizon) const noexcept {
+  if (const auto known = upright_within(v_a - v_b, horizon)) return known;
   const auto inside = round_within(*scene_, v_a - v_b, horizon.from, horizon.until);
   if (!inside) return std::nullopt;
   return *inside ? Membership::in : Membership::out;

@@ -11,6 +11,7 @@ namespace vericone {
 namespace {
 
 using Eigen::Matrix3d;
+using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 /// At most how far the ellipsoid of a shape matrix is from that of its factor, in the unit of lengths: their
@@ -64,6 +65,39 @@ double largest_factor(const RoundBody& body) {
   double most = 0;
   for (const RoundBody::Group& group : body.groups) most = std::max(most, group.factor.norm());
   return most;
+}
+
+/// Level discs of one radius and axis. Those of a body that is turned about its axis are rounded, by less
+/// than a scene's slack.
+struct Stack {
+  Vector2d axis;
+  double radius, low, high;
+};
+std::optional<Stack> stack(const RoundBody& body) {
+  if (body.groups.size() != 1 || body.groups.front().rank != 2) return std::nullopt;
+  const Matrix3d& f = body.groups.front().factor;
+  const double radius = std::hypot(f(0, 0), f(1, 0)), rounding = 0x1p-50 * radius;
+  const bool is_level = f(2, 0) == 0 && f(2, 1) == 0,
+             is_round = std::abs(std::hypot(f(0, 1), f(1, 1)) - radius) <= rounding &&
+                        std::abs(f(0, 0) * f(0, 1) + f(1, 0) * f(1, 1)) <= rounding * radius;
+  if (!is_level || !is_round) return std::nullopt;
+  const Vector3d& first = body.center.front();
+  Stack result{first.head<2>(), radius, first.z(), first.z()};
+  for (const Vector3d& x : body.center) {
+    if (x.head<2>() != result.axis) return std::nullopt;
+    result.low = std::min(result.low, x.z());
+    result.high = std::max(result.high, x.z());
+  }
+  return result;
+}
+
+std::optional<UprightDifference> upright_difference(const RoundBody& agent, const RoundBody& obstacle) {
+  const auto a = stack(agent), b = stack(obstacle);
+  if (!a || !b) return std::nullopt;
+  const double low = b->low - a->high, high = b->high - a->low;
+  const Vector2d between = b->axis - a->axis;
+  return UprightDifference{
+      {between.x(), between.y(), 0.5 * (low + high)}, a->radius + b->radius, 0.5 * (high - low)};
 }
 
 Vector3d mean_center(const RoundBody& body) {
@@ -133,6 +167,7 @@ RoundScene::RoundScene(Convex agent_body, const Vector3d& a_at, Convex obstacle_
   const double of_pieces = 64 * (largest_factor(agent) + largest_factor(obstacle) + margin);
   slack =
       ((terms * size + of_pieces) * kUnitRoundoff + 2 * (agent.off + obstacle.off)) * (1 + 0x1p-40) + 1e-250;
+  if (margin == 0) upright = upright_difference(agent, obstacle);
 }
 
 double RoundScene::enclosed_least(const std::array<Interval, 3>& n) const noexcept {

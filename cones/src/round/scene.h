@@ -11,9 +11,11 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "answers/elementary.h"
+#include "round/upright.h"
 
 namespace vericone {
 
@@ -101,6 +103,7 @@ struct RoundScene {
 
   double size = 0;   // |x|_1 of each point of K is at most this
   double slack = 0;  // of values of supports and of computed points, each of their coordinates
+  std::optional<UprightDifference> upright;  // where K is that
 
   [[nodiscard]] RoundSupport least(const Eigen::Vector3d& n) const noexcept {
     RoundSupport support{agent.farthest(n), obstacle.farthest(-n), 0};

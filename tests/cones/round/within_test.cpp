@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // The rung in doubles of two convex bodies within a horizon: near the ends of time and near the sides of the
-// cone, against the rung in integers and against closed forms of upright cylinders.
+// cone, against the rung in integers and against closed forms of upright cylinders; planes beside these.
 #include <vericone/internal/cones/round/round_oracle.h>
 
 #include <gtest/gtest.h>
 #include <vericone/cones/pair.h>
 #include <vericone/testing/random_bodies.h>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <iostream>
@@ -137,6 +138,74 @@ TEST(RoundWithin, TouchesOfUprightBodiesAtTheEndsAreOn) {
       EXPECT_EQ(verdict(-off, 0, 2), Verdict::out);
     }
   }
+}
+
+/// Two upright cylinders in closed form: the obstacle's middle, seen from the agent, the sum of their radii,
+/// of half their heights, and a horizon.
+struct Upright {
+  Vector3d c;
+  double radius, height;
+  Horizon within;
+
+  bool meets(const Vector3d& w) const {
+    const double a = w.head<2>().squaredNorm(), b = c.head<2>().dot(w.head<2>()),
+                 rest = c.head<2>().squaredNorm() - radius * radius, root = b * b - a * rest;
+    if (!(root > 0)) return false;
+    const double q = b + std::copysign(std::sqrt(root), b), up = (c.z() - height) / w.z(),
+                 down = (c.z() + height) / w.z();
+    const double first = std::max({within.from, std::min(q / a, rest / q), std::min(up, down)}),
+                 last = std::min({within.until, std::max(q / a, rest / q), std::max(up, down)});
+    return first < last;
+  }
+};
+
+TEST(RoundWithin, PlanesOfUprightCylindersTouchTheirCones) {
+  RandomBodies random(3032);
+  SCOPED_TRACE(random.trace());
+  int planes = 0, sampled = 0;
+  for (int i = 0; i < share(4000); ++i) {
+    SCOPED_TRACE("case " + std::to_string(i));
+    const double own = random.log_uniform(0.1, 10), other = random.log_uniform(0.1, 10),
+                 high = random.log_uniform(0.1, 10), higher = random.log_uniform(0.1, 10);
+    const double from = i % 3 == 0 ? random.uniform(0, 3) : 0;
+    const Upright truth{random.log_uniform(1, 100) * random.direction(),
+                        own + other,
+                        high + higher,
+                        {from, i % 5 == 0 ? kEver : from + random.log_uniform(0.1, 30)}};
+    if (truth.c.head<2>().norm() < 1.001 * truth.radius && std::abs(truth.c.z()) < 1.001 * truth.height)
+      continue;
+    Pose turned{truth.c};
+    const double turn = i % 2 == 0 ? random.uniform(0, 6) : 0;
+    turned.rotation.topLeftCorner<2, 2>() = rotation_2d(turn);
+    const Pair pair(Placed(Convex::cylinder(own, 2 * high)),
+                    Placed(Convex::cylinder(other, 2 * higher), turned));
+    // From a velocity that hits to one that does not.
+    const Eigen::Vector2d side = 0.9 * truth.radius * random.direction_2d();
+    const Vector3d inside = truth.c + Vector3d(side.x(), side.y(), random.uniform(-0.9, 0.9) * truth.height);
+    const Vector3d w = inside / random.uniform(from, std::min(truth.within.until, from + 10)),
+                   way = 4 * (w.norm() + truth.radius + truth.height) * random.direction();
+    if (!truth.meets(w) || truth.meets(w + way)) continue;
+    const double edge = boundary(1, 0, [&](double s) { return truth.meets(w + s * way); });
+    const Vector3d touching = w + edge * way;
+    EXPECT_EQ(pair.verdict(touching - 1e-9 * (touching - w), kRest, truth.within), Verdict::in);
+    const Vector3d beside = touching + 1e-9 * way;
+    EXPECT_EQ(pair.verdict(beside, kRest, truth.within), Verdict::out);
+    const auto half = pair.safe_half_space(beside, kRest, truth.within);
+    ASSERT_TRUE(half);
+    ++planes;
+    const Vector3d& n = half->normal;
+    const double most = half->most(truth.within), size = n.norm() * way.norm();
+    EXPECT_LE(n.dot(beside), most);
+    EXPECT_GE(n.dot(touching), most - 1e-7 * size);
+    for (int k = 0; k < 20; ++k) {
+      const Vector3d v = touching + random.log_uniform(1e-6, 1) * way.norm() * random.direction();
+      if (!(n.dot(v) < most - 1e-13 * size)) continue;
+      ++sampled;
+      ASSERT_FALSE(truth.meets(v)) << v.transpose();
+    }
+  }
+  EXPECT_GT(planes, share(2000));
+  EXPECT_GT(sampled, 5 * planes);
 }
 
 }  // namespace

@@ -77,6 +77,10 @@ class RoundOracle {
   };
   [[nodiscard]] std::optional<Meeting> meeting(const Eigen::Vector3d& first,
                                                const Eigen::Vector3d& last) const noexcept;
+  /// Of two upright cylinders: the plane in closed form that touches the cone of a horizon beside w, largest
+  /// entry of its normal 1 or nearly; zero where w is in the cone, to rounding. Nothing of others.
+  [[nodiscard]] std::optional<Eigen::Vector3d> touching_plane(const Eigen::Vector3d& w,
+                                                              const Horizon& horizon) const noexcept;
   /// Within a horizon, for v_a != v_b, however they lie now, by the last rung; nothing where it is undecided.
   [[nodiscard]] std::optional<Membership> exact_within(const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b,
                                                        const Horizon& horizon) const;
@@ -101,6 +105,10 @@ class RoundOracle {
   [[nodiscard]] const Eigen::Vector3d& separating_normal() const { return normal_; }
 
  private:
+  /// Of two upright cylinders, by their closed form; nothing of others and where doubles do not tell.
+  [[nodiscard]] std::optional<Membership> upright_within(const Eigen::Vector3d& w,
+                                                         const Horizon& horizon) const noexcept;
+
   std::shared_ptr<const RoundScene> scene_;
   std::optional<Relation> relation_;
   Rung relation_rung_ = Rung::exact;
