@@ -59,10 +59,16 @@ struct Box3 {
   }
 };
 
-/// A piece, and a time before which no velocity of a box meets it.
+/// A piece, and the normal of the plane that was last found beside it; zero: none yet.
+struct Asked {
+  Piece piece;
+  Vector3d normal = Vector3d::Zero();
+};
+
+/// And a time before which no velocity of a box meets it.
 struct Met {
   double from;
-  Piece piece;
+  Asked asked;
   bool operator<(const Met& other) const { return from > other.from; }  // the soonest on top
 };
 
@@ -72,7 +78,7 @@ struct Known {
   double earliest = 0, latest = 0;
   std::size_t obstacle = VelocityCell::kNone;
   bool first = false;
-  std::vector<Piece> pieces;
+  std::vector<Asked> pieces;
 };
 
 class Classifier {
@@ -80,29 +86,27 @@ class Classifier {
   Classifier(Threats& threats, const VelocityMapOptions& options)
       : threats_(threats), options_(options), horizon_{0, options.until} {}
 
-  Known classify(const Box3& box, const std::vector<Piece>& parent) {
+  Known classify(const Box3& box, const std::vector<Asked>& parent) {
     Known known;
     std::priority_queue<Met> ahead;
     std::vector<Met> seen;
     std::optional<std::size_t> by;  // among `seen`: what is met with every velocity, for sure first
     known.latest = kInfinity;
-    for (const Piece& piece : parent) add(ahead, box, piece);
+    for (const Asked& asked : parent) add(ahead, box, asked);
     while (!ahead.empty() && !(ahead.top().from >= known.latest)) {
-      const Piece piece = ahead.top().piece;
       Met met = ahead.top();
+      const Piece& piece = met.asked.piece;
       ahead.pop();
       if (piece.is_node) {
         if (tells_apart(box, piece)) {
-          threats_.open(piece, [&](const Piece& one) { add(ahead, box, one); });
+          threats_.open(piece, [&](const Piece& one) { add(ahead, box, {one}); });
         } else {
           seen.push_back(met);
         }
         continue;
       }
       const Part& part = threats_.part_of(piece);
-      if (keeps_clear(part, box)) continue;
-      met.from = std::max(met.from, not_before(part, box));
-      if (!(met.from <= options_.until)) continue;
+      if (!is_met(part, box.center()) && keeps_clear(part, box, met.asked.normal)) continue;
       const std::optional<double> until = all_met(part, box);
       if (until && *until < known.latest) {
         known.latest = *until;
@@ -111,22 +115,35 @@ class Classifier {
       seen.push_back(met);
     }
     for (; !ahead.empty(); ahead.pop()) seen.push_back(ahead.top());
-    for (const Met& met : seen) known.pieces.push_back(met.piece);
+    for (const Met& met : seen) known.pieces.push_back(met.asked);
     if (seen.empty()) known.label = Certified::out;
-    if (by) {
-      known.label = Certified::in;
-      known.obstacle = seen[*by].piece.intruder;
-      known.earliest = known.latest;
-      known.first = true;
-      for (const Met& met : seen) {
-        known.earliest = std::min(known.earliest, met.from);
-        known.first = known.first && (met.piece.intruder == known.obstacle || met.from > known.latest);
-      }
-    }
+    if (by) tell_times(box, seen, seen[*by].asked.piece.intruder, known);
     return known;
   }
 
  private:
+  /// Of a box whose velocities all have met an obstacle at `known.latest`; only what may be met before that
+  /// is looked at.
+  void tell_times(const Box3& box, const std::vector<Met>& seen, std::size_t obstacle, Known& known) {
+    known.label = Certified::in;
+    known.obstacle = obstacle;
+    known.earliest = known.latest;
+    known.first = true;
+    for (const Met& met : seen) {
+      const Piece& piece = met.asked.piece;
+      double from = met.from;
+      if (!piece.is_node && from < known.latest)
+        from = std::max(from, not_before(threats_.part_of(piece), box));
+      known.earliest = std::min(known.earliest, from);
+      known.first = known.first && (piece.intruder == obstacle || from > known.latest);
+    }
+  }
+
+  /// Whether one velocity surely meets a part, or what counts as that.
+  bool is_met(const Part& part, const Vector3d& velocity) const {
+    return part.exact() && is_met(part.swollen(), velocity + options_.wind, part.velocity, horizon_);
+  }
+
   /// The most of n.w in a box, w relative to another's velocity, rounded upwards.
   double most_along(const Vector3d& n, const Box3& box, const Vector3d& other) const {
     const Vector3d half = box.half(), middle = box.center() + options_.wind;
@@ -140,9 +157,9 @@ class Classifier {
   }
 
   /// Unless a plane says that it is met too late or never.
-  void add(std::priority_queue<Met>& ahead, const Box3& box, const Piece& piece) const {
-    const Threats::Apart ball = threats_.apart(piece);
-    const Vector3d &c = ball.center, &u = threats_.velocity_of(piece);
+  void add(std::priority_queue<Met>& ahead, const Box3& box, const Asked& asked) const {
+    const Threats::Apart ball = threats_.apart(asked.piece);
+    const Vector3d &c = ball.center, &u = threats_.velocity_of(asked.piece);
     const Vector3d w = box.center() + options_.wind - u;
     const double across = box.half().norm(), speed = w.norm();
     double from = 0;
@@ -160,7 +177,7 @@ class Classifier {
       time = std::clamp((along + back) / speed, 0.0, options_.until);
     }
     if (const Vector3d n = c - time * w; n.norm() > 0) plane(n.normalized());
-    if (from <= options_.until) ahead.push({from, piece});
+    if (from <= options_.until) ahead.push({from, asked});
   }
 
   /// Whether what is below a node may be told apart with velocities of one box; as they are when they arrive.
@@ -171,12 +188,21 @@ class Classifier {
     return ball.radius > time * box.half().norm();
   }
 
+  /// A time before which no velocity of a box reaches a part with the margin, by a plane.
+  double reached_by(const Part& part, const Box3& box, const Vector3d& n) const {
+    return reached(part.pair.gap(n) - options_.margin * n.norm() * (1 + 0x1p-48),
+                   most_along(n, box, part.velocity));
+  }
+
   /// Proved, by a plane for all, from the corner that is met most; or of bodies with delimiters as they are.
-  bool keeps_clear(const Part& part, const Box3& box) const {
+  /// `normal`: of a plane that is tried first; becomes that of the last one.
+  bool keeps_clear(const Part& part, const Box3& box, Vector3d& normal) const {
+    if (!normal.isZero(0) && reached_by(part, box, normal) > options_.until) return true;
     Vector3d v = box.center();
     for (int step = 0; step < 4; ++step) {
       const auto half = safe(part, v + options_.wind, horizon_, options_.margin);
       if (!half) break;
+      normal = half->normal;
       const double along = most_along(half->normal, box, part.velocity);
       if (reached(half->room, along) > options_.until) return true;
       Vector3d next;
@@ -193,14 +219,37 @@ class Classifier {
     return options_.until * (box.half().norm() + kRoundings * (box.center().norm() + options_.wind.norm()));
   }
 
+  /// Of a velocity that meets a pair: a time by which it has, and the normal of a plane that it does not
+  /// reach much before. The first contact of two hulls may be the optimum of a linear programme in whole
+  /// numbers, milliseconds; verdicts bracket it in microseconds.
+  struct Meeting {
+    double by;
+    std::optional<Vector3d> normal;
+  };
+  Meeting meeting(const Pair& pair, const Vector3d& ground, const Vector3d& other) const {
+    const bool hulls = pair.agent().body.hull() && pair.obstacle().body.hull();
+    if (!hulls || std::isinf(options_.until)) {
+      const auto contact = pair.contact(ground, other);
+      return contact ? Meeting{contact->latest, contact->normal} : Meeting{kInfinity, {}};
+    }
+    double before = 0, by = options_.until;
+    for (int step = 0; step < 20; ++step) {
+      const double between = 0.5 * (before + by);
+      (is_met(pair, ground, other, {0, between}) ? by : before) = between;
+    }
+    const auto half = pair.safe_half_space(ground, other, {0, before});
+    return {by, half ? std::optional(half->normal) : std::nullopt};
+  }
+  static bool is_met(const Pair& pair, const Vector3d& ground, const Vector3d& other, const Horizon& within) {
+    const Verdict verdict = pair.verdict(ground, other, within);
+    return verdict == Verdict::in || verdict == Verdict::overlapping;
+  }
+
   /// A time before which no velocity of the box brings a part nearer than the margin: the plane where the
   /// middle one does.
   double not_before(const Part& part, const Box3& box) const {
-    const auto contact = part.swollen().contact(box.center() + options_.wind, part.velocity);
-    if (!contact || !contact->normal) return 0;
-    const Vector3d& n = *contact->normal;
-    return reached(part.pair.gap(n) - options_.margin * n.norm() * (1 + 0x1p-48),
-                   most_along(n, box, part.velocity));
+    const auto normal = meeting(part.swollen(), box.center() + options_.wind, part.velocity).normal;
+    return normal ? reached_by(part, box, *normal) : 0;
   }
 
   /// A time until which every velocity of the box has brought a part nearer than the margin; nothing where
@@ -209,17 +258,16 @@ class Classifier {
     const Pair* convex = part.exact() ? &part.swollen() : part.core ? &*part.core : nullptr;
     const auto hit = [&](const Vector3d& ground) {
       if (part.exact()) return comes_nearer(part, ground, horizon_, options_.margin);
-      const Verdict verdict = convex->verdict(ground, part.velocity, horizon_);
-      return verdict == Verdict::in || verdict == Verdict::overlapping;
+      return is_met(*convex, ground, part.velocity, horizon_);
     };
     if (convex && hit(box.center() + options_.wind)) {
+      const std::vector<Vector3d> corners = box.corners();
+      for (const Vector3d& corner : corners)
+        if (!hit(corner + options_.wind)) return std::nullopt;
       double latest = 0;
-      for (const Vector3d& corner : box.corners()) {
-        const Vector3d ground = corner + options_.wind;
-        if (!hit(ground)) return std::nullopt;
-        const auto contact = convex->contact(ground, part.velocity);
-        latest = std::max(latest, contact ? std::min(contact->latest, options_.until) : options_.until);
-      }
+      for (const Vector3d& corner : corners)
+        latest = std::max(latest, meeting(*convex, corner + options_.wind, part.velocity).by);
+      latest = std::min(latest, options_.until);
       return latest;
     }
     if (part.exact() || !(spread(box) < part.reach)) return std::nullopt;
@@ -242,7 +290,7 @@ class Boxes {
   VelocityMap run() {
     VelocityMap map;
     nodes_.push_back(
-        {{options_.low, options_.high}, 0, classify({options_.low, options_.high}, threats_.all())});
+        {{options_.low, options_.high}, 0, classify({options_.low, options_.high}, all_pieces())});
     std::deque<std::size_t> open{0};  // the larger ones first
     while (!open.empty() && map.complete) {
       const std::size_t at = open.front();
@@ -253,7 +301,7 @@ class Boxes {
       checkpoint();
       nodes_[at].halves = nodes_.size();
       const Box3 box = nodes_[at].box;
-      const std::vector<Piece> pieces = std::move(nodes_[at].known.pieces);
+      const std::vector<Asked> pieces = std::move(nodes_[at].known.pieces);
       const int axis = box.longest();
       Box3 lower = box, upper = box;
       lower.high(axis) = upper.low(axis) = box.center()(axis);
@@ -263,7 +311,7 @@ class Boxes {
       }
     }
     map.asked = nodes_.size();
-    for (Node& node : nodes_) std::vector<Piece>().swap(node.known.pieces);
+    for (Node& node : nodes_) std::vector<Asked>().swap(node.known.pieces);
     merge();
     write(map);
     return map;
@@ -277,7 +325,12 @@ class Boxes {
     std::size_t cell = 0;
   };
 
-  Known classify(const Box3& box, const std::vector<Piece>& pieces) {
+  std::vector<Asked> all_pieces() const {
+    std::vector<Asked> all;
+    for (const Piece& piece : threats_.all()) all.push_back({piece});
+    return all;
+  }
+  Known classify(const Box3& box, const std::vector<Asked>& pieces) {
     Known known = classifier_.classify(box, pieces);
     if (known.label == Certified::out) known.pieces.clear();
     return known;
