@@ -98,6 +98,13 @@ TEST(Encounters, NearnessOfStraightTracksIsInClosedForm) {
   EXPECT_EQ(beside(0, 31).entered, Entered::no);
   EXPECT_EQ(beside(152.4, 0).entered, Entered::undecided);
   EXPECT_NEAR(beside(152, 0).time, 20, 1e-9);
+  // From end to end of what doubles have, and so far out that their digits are larger than the volume.
+  EXPECT_EQ(nearness(straight({-1.7e308, 0, 0}, {8.5e306, 0, 0}), agent, 0, 40, kVolume).entered,
+            Entered::undecided);
+  EXPECT_EQ(nearness(straight({1e20, 0, 0}, {0, 0, 0}), straight({1e20, 200, 0}, {0, 0, 0}), 0, 40, kVolume)
+                .entered,
+            Entered::undecided);
+  EXPECT_EQ(nearness(straight({1e307, 0, 0}, {0, 0, 0}), agent, 0, 40, kVolume).entered, Entered::no);
   EXPECT_NEAR(beside(152, 3).horizontal, 152, 1e-9);
   EXPECT_NEAR(beside(152, 3).vertical, 3, 1e-12);
   // Descending through its level 300 m before it: horizontally 300 m then, vertically 0; nearest in between.

@@ -189,14 +189,15 @@ TEST(Populations, BatchesAreTheVerdictsOfEachEncounter) {
   }
 }
 
-/// Of `seeds` campaigns, how many intervals hold the share; and how many of those that rest on nothing.
+/// Of `seeds` campaigns, how many intervals hold the share that need to have seen what collides; and of those
+/// that do not.
 std::pair<int, int> held(const Population& population, double share, std::uint64_t count, int seeds) {
   const Sampler sampler(population);
   std::pair<int, int> held{0, 0};
   for (int seed = 1; seed <= seeds; ++seed) {
     const Estimate found = estimate_of(sampler.tally(std::uint64_t(seed), 0, count), population);
-    held.first += found.low <= share && share <= found.high;
-    held.second += found.least <= share && share <= found.most;
+    held.first += found.covered.low <= share && share <= found.covered.high;
+    held.second += found.low <= share && share <= found.high;
     EXPECT_NEAR(found.mean_weight, 1, 5 * found.mean_weight_error + 1e-12);
   }
   return held;
@@ -212,8 +213,9 @@ TEST(Populations, IntervalsOfRareCollisionsHold) {
   EXPECT_GE(interval, enough(100));
   EXPECT_EQ(wide, 100);
   const Estimate one = estimate_of(Sampler(rare).tally(1, 0, 10'000), rare);
-  EXPECT_LT(one.high - one.low, 0.12e-6);
-  EXPECT_LE(one.most, 0.02);
+  EXPECT_LT(one.covered.high - one.covered.low, 0.12e-6);
+  EXPECT_GT(one.low, 0.8e-6);
+  EXPECT_LE(one.high, 0.005);
   // One in 10^9.
   EXPECT_GE(held(off_the_way(1e-9, kRadius), 1e-9, 10'000, 100).first, enough(100));
 }
@@ -237,6 +239,73 @@ TEST(Populations, IntervalsOfManyVelocitiesOfFewPlacesHold) {
   EXPECT_EQ(tally.verdicts, 20'000U);
   EXPECT_EQ(tally.encounters, 200U);
   EXPECT_GE(held(population, 0.05, 200, 200).first, enough(200));
+}
+
+TEST(Populations, AProposalThatMissesIsNoticed) {
+  // It draws heights above the way alone: half of what collides is left to what is drawn as it is.
+  const auto above = [](double share) {
+    Population population = off_the_way(share, kRadius);
+    population.variables[1].proposal = uniform(0, kRadius);
+    return population;
+  };
+  // Too rare to be among the 1000 of 10^4 that are: nobody can notice it, and the interval holds all the
+  // same.
+  const auto [covered, whatever] = held(above(1e-5), 1e-5, 10'000, 100);
+  EXPECT_LT(covered, 10);
+  EXPECT_EQ(whatever, 100);
+  // Among them: it is counted.
+  EXPECT_EQ(Sampler(off_the_way(0.02, kRadius)).tally(1, 0, 10'000).uncovered, 0U);
+  const Tally seen = Sampler(above(0.02)).tally(1, 0, 10'000);
+  EXPECT_GT(seen.uncovered, 0U);
+  EXPECT_NEAR(double(seen.uncovered), 0.5 * 0.02 * 1000, 4 * std::sqrt(10.0));
+  EXPECT_GE(held(above(0.02), 0.02, 2000, 100).second, enough(100));
+}
+
+TEST(Populations, BetsAreThoseOfEachObservation) {
+  // Few observations of many sizes, without sums: the product of the bets is no less, so the limits hold.
+  const std::vector<double> seen{0, 0, 0.3, 0, 10, 0, 2, 0, 0, 0, 1e-3, 0, 0, 5, 0, 0, 0, 0, 0.1, 0};
+  Moments moments;
+  for (const double x : seen)
+    if (x > 0) moments.add(x);
+  for (int times : {1, 5, 200}) {
+    const Moments many{times * moments.sum, times * moments.squares, moments.largest};
+    const Bounds found = betting_bounds(many, std::uint64_t(times) * seen.size(), 10);
+    const double mean = many.sum / (times * double(seen.size()));
+    EXPECT_LT(found.low, mean);
+    EXPECT_GT(found.high, mean);
+    const auto won = [&](double m, double scale, double side) {
+      double all = 0;
+      for (int j = 0; j < 40; ++j) {
+        double log = -std::log((j + 1.0) * (j + 2));
+        for (const double x : seen) log += times * std::log1p(side * std::ldexp(0.9, -j) / scale * (x - m));
+        all += std::exp(std::min(log, 100.0));
+      }
+      return all;
+    };
+    if (found.high < 10) EXPECT_GE(won(found.high, 10, -1), 40 * (1 - 1e-9));
+    if (found.low > 0) EXPECT_GE(won(found.low, found.low, 1), 40 * (1 - 1e-9));
+  }
+  // Of nothing seen, by the first bet alone: (1 + 0.9 m / 10)^n / 2 = 40, but for its square.
+  const Bounds none = betting_bounds({}, 1'000'000, 10);
+  EXPECT_EQ(none.low, 0);
+  EXPECT_NEAR(none.high, 10 * std::log(80) / 0.9e6, 1e-9);
+}
+
+TEST(Populations, StrataHaveTheSharesOfTheirPopulation) {
+  // Heights near the way, of which the population has few, are a third of all encounters.
+  Population population = off_the_way(1e-3, 0);
+  Population plain = population;
+  const double deviation = kRadius / std::sqrt(-2 * std::log1p(-1e-3));
+  const auto below = [&](double z) { return 0.5 * std::erfc(-z / deviation / std::numbers::sqrt2); };
+  population.strata = Strata{1, {0, below(-kRadius), below(kRadius), 1}};
+  EXPECT_NEAR(population.largest_weight(), 3 * below(-kRadius), 1e-12);
+  const auto [covered, whatever] = held(population, 1e-3, 3000, 200);
+  EXPECT_GE(covered, enough(200));
+  EXPECT_GE(whatever, enough(200));
+  const Tally tally = Sampler(population).tally(1, 0, 3000);
+  EXPECT_NEAR(tally.weight, 3000, 1e-9);
+  // 1000 encounters that may collide, where the population has 3000 below(...) = 110.
+  EXPECT_GT(tally.in, 4 * Sampler(plain).tally(1, 0, 3000).in);
 }
 
 TEST(Populations, GammaBoundsOfEqualObservationsAreThoseOfAPoissonCount) {

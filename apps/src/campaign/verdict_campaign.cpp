@@ -63,6 +63,7 @@ const std::vector<Cell>& cells() {
       cell("overlapping", &Tally::overlapping),
       cell("on", &Tally::on),
       cell("undecided", &Tally::undecided),
+      cell("uncovered", &Tally::uncovered),
       cell("weight", &Tally::weight),
       cell("weight squared", &Tally::weight_squares),
       cell("collides", [](Tally& t) -> double& { return t.sure.sum; }),
@@ -87,6 +88,10 @@ std::vector<Tally> read_blocks(const std::filesystem::path& file) {
     for (std::size_t i = 0; i < blocks.size(); ++i)
       cells()[k].set(blocks[i], table.columns[k + 1].numbers[i]);
   return blocks;
+}
+
+const char* interval_of(const Estimate& found) {
+  return found.exact ? "Clopper and Pearson" : "Waudby-Smith and Ramdas";
 }
 
 Json bounds_json(const Estimate& found) {
@@ -114,9 +119,9 @@ Json to_json(const Tally& tally, const Estimate& found, const Population& popula
   Json summary = bounds_json(found);
   summary.update({{"population", population.name},
                   {"confidence", kConfidence},
-                  {"interval", found.exact ? "Clopper and Pearson" : "Fay and Feuer"},
-                  {"least", found.least},
-                  {"most", found.most},
+                  {"interval", interval_of(found)},
+                  {"covered", {{"low", found.covered.low}, {"high", found.covered.high}}},
+                  {"uncovered", tally.uncovered},
                   {"encounters", tally.encounters},
                   {"verdicts", tally.verdicts},
                   {"in", tally.in},
@@ -153,12 +158,12 @@ std::string text_of(const Tally& tally, const Estimate& found, const Population&
            Long(tally.encounters), Long(tally.verdicts), Long(tally.in), Long(tally.overlapping),
            Long(tally.on), Long(tally.undecided));
   text += line("share     %.4g, with 95 %% confidence between %.4g and %.4g (%s)\n", found.share, found.low,
-               found.high, found.exact ? "Clopper and Pearson" : "Fay and Feuer");
+               found.high, interval_of(found));
   if (!found.exact)
     text += line(
-        "          %.1f effective collisions; whatever was not seen: between %.4g and %.4g (Maurer and "
-        "Pontil)\n",
-        found.effective_hits, found.least, found.most);
+        "          %.1f effective collisions; if no kind of collision is rare among what is drawn: between "
+        "%.4g and %.4g (Fay and Feuer)\n",
+        found.effective_hits, found.covered.low, found.covered.high);
   if (population.weighted())
     text += line("weights   mean %.4g (1 expected, standard error %.2g), %.1f effective encounters\n",
                  found.mean_weight, found.mean_weight_error, found.effective_encounters);
@@ -166,8 +171,13 @@ std::string text_of(const Tally& tally, const Estimate& found, const Population&
     text += line("an hour   %.4g collisions, between %.4g and %.4g\n", *population.per_hour * found.share,
                  *population.per_hour * found.low, *population.per_hour * found.high);
   constexpr double kFew = 10;
-  if (!found.exact && found.effective_hits < kFew)
-    text += "few collisions carry this share: rest on the wider interval, or draw more of what collides\n";
+  if (tally.uncovered > 0)
+    text += line(
+        "uncovered %llu collisions were drawn where the proposal hardly draws: it misses a part of "
+        "what collides; rest on the first interval\n",
+        Long(tally.uncovered));
+  else if (!found.exact && found.effective_hits < kFew)
+    text += "few collisions carry this share: rest on the first interval, or draw more of what collides\n";
   return text;
 }
 
@@ -176,10 +186,13 @@ std::string text_of(const Tally& tally, const Estimate& found, const Population&
 int run_verdict_campaign(const std::string& file, std::uint64_t encounters, std::uint64_t seed,
                          const OutputOptions& options, std::ostream& out) {
   if (encounters < 1 || encounters > kMostEncounters)
-    throw InputError("--engagements", std::to_string(encounters),
-                     "between 1 and " + std::to_string(kMostEncounters));
+    throw InputError("-N", std::to_string(encounters), "between 1 and " + std::to_string(kMostEncounters));
   const Sampler sampler(read_population(file));
   const Population& population = sampler.population();
+  if (population.strata && encounters % population.strata->count() != 0)
+    throw InputError(
+        "-N", std::to_string(encounters),
+        "a multiple of " + std::to_string(population.strata->count()) + ", the strata of " + file);
   work::StagedFolder folder(options.out, "--out");
   const auto start = Clock::now();
   const std::uint64_t block = block_of(encounters);

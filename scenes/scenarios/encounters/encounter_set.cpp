@@ -209,6 +209,8 @@ EncounterSet of_population(const std::string& file, const Scenario& scenario) {
   if (scenario.bodies.size() != 2)
     throw InputError("--encounters", file, "a table, or a population for a scenario of two bodies");
   auto sampler = std::make_shared<populations::Sampler>(populations::read_population(file));
+  if (sampler->population().strata)
+    throw InputError(file + ": strata", "given", "left out beside --encounters");
   const std::size_t agent = scenario.bodies[0].pilot || !scenario.bodies[1].pilot ? 0 : 1;
   return {0, true, sampler->population().largest_weight(),
           [sampler, agent, seed = scenario.seed](std::uint64_t i) {

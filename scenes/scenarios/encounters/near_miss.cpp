@@ -76,13 +76,19 @@ class Search {
       second ? look(half, there, to, last, depth + 1) : look(from, first, half, there, depth + 1);
   }
 
-  Vector3d apart(double t) const { return a_.motion(t).position - b_.motion(t).position; }
+  Vector3d apart(double t) {
+    const Vector3d a = a_.motion(t).position, b = b_.motion(t).position;
+    farthest_ = std::max({farthest_, a.lpNorm<Eigen::Infinity>(), b.lpNorm<Eigen::Infinity>()});
+    return a - b;
+  }
 
   Nearness found() const {
-    constexpr double kRounding = 1e-12;
-    const Entered entered = best_ < 1 - kRounding    ? Entered::yes
-                            : lower_ > 1 + kRounding ? Entered::no
-                                                     : Entered::undecided;
+    // Places are known to some units in their last digit; of distances that overflow nothing is.
+    const double rounding = 1e-12 + 0x1p-46 * farthest_ / std::min(volume_.radius, volume_.half_height);
+    const bool told = std::isfinite(best_) && std::isfinite(rounding);
+    const Entered entered = told && best_ < 1 - rounding    ? Entered::yes
+                            : told && lower_ > 1 + rounding ? Entered::no
+                                                            : Entered::undecided;
     return {entered, time_, place_.head<2>().norm(), std::abs(place_.z())};
   }
 
@@ -98,7 +104,7 @@ class Search {
 
   const Track &a_, &b_;
   const Volume& volume_;
-  double best_ = std::numeric_limits<double>::infinity(), lower_ = best_, time_ = 0;
+  double best_ = std::numeric_limits<double>::infinity(), lower_ = best_, time_ = 0, farthest_ = 0;
   Vector3d place_ = Vector3d::Zero();
 };
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <boost/math/distributions/chi_squared.hpp>
 #include <cmath>
+#include <limits>
 
 namespace vericone::populations {
 namespace {
@@ -19,6 +20,9 @@ void add(const Moments& more, Moments& to) {
   to.squares += more.squares;
   to.largest = std::max(to.largest, more.largest);
 }
+
+constexpr double kBoldest = 0.9;
+constexpr int kBets = 40, kHalvings = 60;
 
 double effective(double sum, double squares) { return squares > 0 ? sum * sum / squares : 0; }
 
@@ -37,13 +41,33 @@ Bounds gamma_bounds(const Moments& moments, std::uint64_t count, double largest,
   return bounds;
 }
 
-Bounds bernstein_bounds(const Moments& moments, std::uint64_t count, double largest, double confidence) {
-  if (count < 2) return {0, largest};
-  const double n = double(count), mean = moments.sum / n;
-  const double variance = std::max(moments.squares - n * mean * mean, 0.0) / (n - 1);
-  const double risk = std::log(2 / (0.5 * (1 - confidence)));
-  const double width = std::sqrt(2 * variance * risk / n) + 7 * largest * risk / (3 * (n - 1));
-  return {std::max(mean - width, 0.0), std::min(mean + width, largest)};
+Bounds betting_bounds(const Moments& moments, std::uint64_t count, double largest, double confidence) {
+  if (count == 0) return {0, largest};
+  const double n = double(count), mean = std::min(moments.sum / n, largest);
+  // The logarithm of what a stake of 1 has become at least, of bets of `side` c / scale on each observation.
+  const auto wealth = [&](double m, double scale, double side) {
+    double most = -std::numeric_limits<double>::infinity();
+    const double sum = side * (moments.sum - n * m);
+    const double squares = moments.squares - 2 * m * moments.sum + n * m * m;
+    for (int j = 0; j < kBets; ++j) {
+      const double c = std::ldexp(kBoldest, -j), bet = c / scale;
+      const double psi = -(std::log1p(-c) + c) / (c * c);
+      most = std::max(most, bet * sum - psi * bet * bet * squares - std::log((j + 1.0) * (j + 2)));
+    }
+    return most;
+  };
+  const double enough = std::log(2 / (1 - confidence));
+  // All means from the limit outwards are lost bets: one against a mean further away has won more.
+  const auto limit = [&](double in, double out, double otherwise, auto&& lost) {
+    if (!lost(out)) return otherwise;
+    for (int i = 0; i < kHalvings; ++i) {
+      const double middle = 0.5 * (in + out);
+      (lost(middle) ? out : in) = middle;
+    }
+    return out;
+  };
+  return {mean > 0 ? limit(mean, 0x1p-30 * mean, 0, [&](double m) { return wealth(m, m, 1) > enough; }) : 0,
+          limit(mean, largest, largest, [&](double m) { return wealth(m, largest, -1) > enough; })};
 }
 
 Estimate estimate_of(const Tally& tally, const Population& population) {
@@ -52,15 +76,15 @@ Estimate estimate_of(const Tally& tally, const Population& population) {
   found.share = tally.sure.sum / n;
   found.exact = !population.weighted() && population.velocities == 1;
   if (found.exact) {
-    found.low = found.least = simulation::share_of(tally.in, tally.encounters, kConfidence).low;
-    found.high = found.most =
-        simulation::share_of(tally.in + tally.undecided, tally.encounters, kConfidence).high;
+    found.low = simulation::share_of(tally.in, tally.encounters, kConfidence).low;
+    found.high = simulation::share_of(tally.in + tally.undecided, tally.encounters, kConfidence).high;
+    found.covered = {found.low, found.high};
   } else {
     const double largest = population.largest_weight();
-    found.least = bernstein_bounds(tally.sure, tally.encounters, largest).low;
-    found.most = std::min(bernstein_bounds(tally.possible, tally.encounters, largest).high, 1.0);
-    found.low = gamma_bounds(tally.sure, tally.encounters, largest).low;
-    found.high = std::min(gamma_bounds(tally.possible, tally.encounters, largest).high, 1.0);
+    found.low = betting_bounds(tally.sure, tally.encounters, largest).low;
+    found.high = std::min(betting_bounds(tally.possible, tally.encounters, largest).high, 1.0);
+    found.covered = {gamma_bounds(tally.sure, tally.encounters, largest).low,
+                     std::min(gamma_bounds(tally.possible, tally.encounters, largest).high, 1.0)};
   }
   found.effective_hits = effective(tally.sure.sum, tally.sure.squares);
   found.effective_encounters = effective(tally.weight, tally.weight_squares);
@@ -78,6 +102,7 @@ void add(const Tally& more, Tally& to) {
   to.overlapping += more.overlapping;
   to.on += more.on;
   to.undecided += more.undecided;
+  to.uncovered += more.uncovered;
   to.weight += more.weight;
   to.weight_squares += more.weight_squares;
   add(more.sure, to.sure);

@@ -23,20 +23,25 @@ struct Bounds {
 [[nodiscard]] Bounds gamma_bounds(const Moments& moments, std::uint64_t count, double largest,
                                   double confidence = kConfidence);
 
-/// For the mean of `count` independent observations between 0 and `largest`, whatever they are: empirical
-/// Bernstein bounds (Maurer and Pontil, COLT 2009, theorem 4), half of the risk on either side. Never right
-/// less often than said; their width is 9 largest / count at least.
-[[nodiscard]] Bounds bernstein_bounds(const Moments& moments, std::uint64_t count, double largest,
-                                      double confidence = kConfidence);
+/// For the mean of `count` independent observations between 0 and `largest`, whatever they are, also where
+/// their own means differ: no bet against the mean grows to 2 / (1 - confidence) but with half that risk on
+/// either side (Waudby-Smith and Ramdas, J. R. Stat. Soc. B 86 (2024), by Ville's inequality), where bets of
+/// c 2^-j have a share 1 / ((j + 1) (j + 2)) of the stake and a factor 1 + y >= exp(y - psi(c) y^2) for
+/// y >= -c (Fan, Grama and Liu, Electron. J. Probab. 20 (2015)). Never right less often than said; where
+/// nothing was seen `high` is 4.9 largest / count. Cost: 20 us.
+[[nodiscard]] Bounds betting_bounds(const Moments& moments, std::uint64_t count, double largest,
+                                    double confidence = kConfidence);
 
 /// The share of a population that collides.
 struct Estimate {
   double share = 0;
-  /// Holds the share in 95 of 100 campaigns or more: of encounters without weights and with one velocity each
-  /// by Clopper and Pearson (1934), exactly; otherwise gamma_bounds(). What is
-  /// undecided counts as no collision for `low`, as one for `high`.
+  /// Holds the share in 95 of 100 campaigns or more, whatever was not seen: of encounters without weights and
+  /// with one velocity each by Clopper and Pearson (1934), otherwise betting_bounds(). What is undecided
+  /// counts as no collision for `low`, as one for `high`.
   double low = 0, high = 1;
-  double least = 0, most = 1;  // bernstein_bounds(), or the same where that is exact
+  /// gamma_bounds(), within which it is as often if what collides is drawn often enough to be seen: not where
+  /// a proposal misses a part of it. The same where `exact`.
+  Bounds covered;
   bool exact = true;
   double effective_hits = 0;                      // (sum x)^2 / sum x^2 of what collides
   double effective_encounters = 0;                // (sum w)^2 / sum w^2 of all weights

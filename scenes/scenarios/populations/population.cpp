@@ -47,8 +47,16 @@ std::string name_of(const Variable& variable) {
   return std::string(variable.obstacle ? "obstacle." : "agent.") + to_string(variable.what);
 }
 
-bool Population::weighted() const {
+bool Population::proposes() const {
   return std::any_of(variables.begin(), variables.end(), [](const Variable& v) { return bool(v.proposal); });
+}
+
+double Population::largest_weight() const {
+  double largest = 1;
+  if (strata)
+    for (std::size_t k = 0; k < strata->count(); ++k)
+      largest = k == 0 ? strata->weight(k) : std::max(largest, strata->weight(k));
+  return proposes() ? largest / nominal_share : largest;
 }
 
 struct Sampler::Columns {
@@ -58,7 +66,7 @@ struct Sampler::Columns {
   std::array<Membership, kChunk> membership;
   // While they are drawn.
   std::array<double, kChunk> u, other, log_ratio;
-  std::array<bool, kChunk> from_nominal;
+  std::array<bool, kChunk> from_nominal, uncovered;
 };
 
 Sampler::Sampler(Population population) : population_(std::move(population)) {
@@ -104,10 +112,21 @@ Sampler::Sampler(Population population) : population_(std::move(population)) {
 void Sampler::draw(std::uint64_t seed, std::uint64_t first, std::size_t count, bool places, bool velocities,
                    Columns& to) const {
   const std::vector<Variable>& variables = population_.variables;
-  const bool weighted = population_.weighted();
+  const bool proposes = population_.proposes();
+  const std::optional<Strata>& strata = population_.strata;
   const std::span<double> u(to.u.data(), count);
+  // The variable's own uniform numbers, within the encounter's stratum.
+  const auto fill = [&](std::size_t k) {
+    engagements::Random::fill(seed, first, k, u);
+    if (!strata || strata->variable != k) return;
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::size_t part = (first + i) % strata->count();
+      const double low = strata->edges[part], high = strata->edges[part + 1];
+      u[i] = std::min(low + (high - low) * u[i], 1 - 0x1p-53);
+    }
+  };
   to.x.resize(variables.size());
-  if (weighted) {
+  if (proposes) {
     engagements::Random::fill(seed, first, variables.size(), u);
     for (std::size_t i = 0; i < count; ++i) to.from_nominal[i] = u[i] < population_.nominal_share;
     std::fill_n(to.log_ratio.begin(), count, 0.0);
@@ -115,7 +134,7 @@ void Sampler::draw(std::uint64_t seed, std::uint64_t first, std::size_t count, b
   for (std::size_t k = 0; k < variables.size(); ++k) {
     const Variable& variable = variables[k];
     if (of_place(variable.what) ? !places : !velocities) continue;
-    engagements::Random::fill(seed, first, k, u);
+    fill(k);
     double* const x = to.x[k].data();
     variable.nominal->quantiles(u, x);
     if (!variable.proposal) continue;
@@ -131,7 +150,7 @@ void Sampler::draw(std::uint64_t seed, std::uint64_t first, std::size_t count, b
     // The last row first: a row needs the scores of those before it.
     std::vector<std::array<double, kChunk>> scores(n);
     for (std::size_t k = 0; k < n; ++k) {
-      engagements::Random::fill(seed, first, group.variables[k], u);
+      fill(group.variables[k]);
       for (std::size_t i = 0; i < count; ++i) scores[k][i] = normal_quantile(u[i]);
     }
     for (std::size_t k = 0; k < n; ++k)
@@ -143,13 +162,13 @@ void Sampler::draw(std::uint64_t seed, std::uint64_t first, std::size_t count, b
   }
   const double share = population_.nominal_share;
   for (std::size_t i = 0; i < count; ++i) {
-    if (!weighted) {
-      to.weight[i] = 1;
-      continue;
-    }
+    to.weight[i] = strata ? strata->weight((first + i) % strata->count()) : 1;
+    to.uncovered[i] = false;
+    if (!proposes) continue;
     // p / (share p + (1 - share) q), of densities p and q of which one may be 0.
     const double q_to_p = std::exp(-to.log_ratio[i]);
-    to.weight[i] = q_to_p < kInfinite ? 1 / (share + (1 - share) * q_to_p) : 0;
+    to.uncovered[i] = (1 - share) * q_to_p < share;
+    to.weight[i] *= q_to_p < kInfinite ? 1 / (share + (1 - share) * q_to_p) : 0;
   }
 }
 
@@ -234,6 +253,7 @@ void Sampler::tally_fixed(std::uint64_t seed, std::uint64_t first, std::uint64_t
       to.overlapping += verdict == Verdict::overlapping;
       to.on += verdict == Verdict::on || verdict == Verdict::touching;
       to.undecided += undecided;
+      to.uncovered += in && columns->uncovered[i];
       if (in) to.sure.add(weight);
       if (in || undecided) to.possible.add(weight);
     }
@@ -275,6 +295,7 @@ void Sampler::tally_placed(std::uint64_t seed, std::uint64_t first, std::uint64_
       to.undecided += undecided;
       to.weight += weight;
       to.weight_squares += weight * weight;
+      to.uncovered += in > 0 && places->uncovered[p];
       if (in > 0) to.sure.add(share * double(in));
       if (in + undecided > 0) to.possible.add(share * double(in + undecided));
     }

@@ -55,6 +55,15 @@ struct Correlated {
   std::vector<std::vector<double>> factor;  // lower triangular; its rows times independent scores
 };
 
+/// A variable whose values are drawn from parts of its distribution by turns, so that each part has as many
+/// encounters; they have weights by how probable the part is.
+struct Strata {
+  std::size_t variable = 0;
+  std::vector<double> edges;  // probabilities of values below, from 0 to 1, ascending
+  [[nodiscard]] std::size_t count() const { return edges.size() - 1; }
+  [[nodiscard]] double weight(std::size_t k) const { return double(count()) * (edges[k + 1] - edges[k]); }
+};
+
 struct Population {
   std::string name;
   scenes::Scene scene;
@@ -63,13 +72,15 @@ struct Population {
   /// The share of encounters drawn from the nominal distributions where there is a proposal: no weight is
   /// above its inverse (a defensive mixture: Hesterberg, Technometrics 37 (1995)).
   double nominal_share = 0.1;
+  std::optional<Strata> strata;    // of a variable without proposal, beside one velocity each
   int velocities = 1;              // asked of each pair of bodies and places
   std::optional<double> within;    // s: contacts within so long alone
   std::optional<double> per_hour;  // encounters an hour, of which a share collides
 
   /// Whether what is drawn is not the population itself, so that encounters have weights.
-  [[nodiscard]] bool weighted() const;
-  [[nodiscard]] double largest_weight() const { return weighted() ? 1 / nominal_share : 1; }
+  [[nodiscard]] bool weighted() const { return proposes() || strata; }
+  [[nodiscard]] bool proposes() const;
+  [[nodiscard]] double largest_weight() const;
 };
 
 /// Sums over observations x >= 0: an encounter's weight times the share of its velocities that collide.
@@ -89,6 +100,7 @@ struct Tally {
   std::uint64_t overlapping = 0;  // of these: they do so now
   std::uint64_t on = 0;           // they touch or will touch, and no more
   std::uint64_t undecided = 0;
+  std::uint64_t uncovered = 0;  // encounters that collide where the proposal hardly draws: rather by `drawn`
   double weight = 0, weight_squares = 0;
   Moments sure, possible;  // of `in`; of `in` and `undecided`
 };

@@ -75,8 +75,8 @@ Value<Eigen::Vector2d> mean_and_concentration() {
           {}};
 }
 
-bool ascends(const Eigen::Vector2d& v) { return v(0) < v(1); }
-bool ascends_above_zero(const Eigen::Vector2d& v) { return v(0) > 0 && v(0) < v(1); }
+bool ascends(const Eigen::Vector2d& v) { return v(0) < v(1) && std::isfinite(v(1) - v(0)); }
+bool ascends_above_zero(const Eigen::Vector2d& v) { return v(0) > 0 && ascends(v); }
 bool deviates(const Eigen::Vector2d& v) { return v(1) > 0; }
 bool is_elevation(const Eigen::Vector2d& v) {
   return v(0) < v(1) && std::abs(v(0)) <= 0.5 * std::numbers::pi && std::abs(v(1)) <= 0.5 * std::numbers::pi;
@@ -234,8 +234,25 @@ const Fields<CorrelatedFields>& correlated_fields() {
   return fields;
 }
 
+struct StrataFields {
+  std::string of;
+  std::vector<double> edges;
+};
+
+const Fields<StrataFields>& strata_fields() {
+  static const Fields<StrataFields> fields =
+      Fields<StrataFields>("object")
+          .row("of", &StrataFields::of, input::text("a name such as obstacle.z"),
+               "The name of what is drawn, such as `obstacle.z`; without a proposal.",
+               input::required("a name of what is drawn"))
+          .row("edges", &StrataFields::edges, list("numbers", number(), 1),
+               "Values between the strata, ascending (m, m/s, rad).", input::required("a list of numbers"));
+  return fields;
+}
+
 struct PopulationFields {
   Drawn drawn, proposal;
+  std::optional<StrataFields> strata;
   std::vector<CorrelatedFields> correlated;
   Population made;
 };
@@ -264,6 +281,11 @@ const Fields<PopulationFields>& population_fields() {
                 "a number above 0, at most 1", [](const double& x) { return x > 0 && x <= 1; }),
             "Beside a proposal: encounters drawn as `drawn` says all the same. No weight is above its "
             "inverse.")
+        .row("strata", &P::strata, input::mapping(strata_fields()),
+             "Every stratum of one number's values has as many encounters, with weights by how probable it "
+             "is; "
+             "`-N` is a multiple of their count.",
+             absent("none"))
         .row("correlated", &P::correlated, list("groups", input::mapping(correlated_fields())),
              "Numbers that are not drawn independently; without a proposal.", absent("none"))
         .row(
@@ -303,6 +325,43 @@ std::vector<std::vector<double>> factor_of(const std::vector<std::vector<double>
   return factor;
 }
 
+std::size_t named(const std::string& name, const std::string& path, const Population& population) {
+  const std::vector<Variable>& all = population.variables;
+  for (std::size_t k = 0; k < all.size(); ++k)
+    if (name_of(all[k]) == name) return k;
+  throw InputError(path, name, "one of what `drawn` has, such as obstacle.x");
+}
+
+/// The probability of values below, to 2^-52.
+double probability_below(const Distribution& of, double value) {
+  double low = 0, high = 1;
+  for (int i = 0; i < 52; ++i) {
+    const double middle = 0.5 * (low + high);
+    double x = 0;
+    of.quantiles({&middle, 1}, &x);
+    (x < value ? low : high) = middle;
+  }
+  return high;
+}
+
+void add_strata(const StrataFields& given, Population& to) {
+  constexpr double kLeast = 1e-9;  // below, its rounding would count
+  const std::size_t variable = named(given.of, "strata.of", to);
+  const Variable& of = to.variables[variable];
+  if (of.proposal) throw InputError("strata.of", given.of, "one without a proposal");
+  if (to.velocities > 1) throw InputError("strata", "given", "left out where `velocities` is above 1");
+  Strata strata{variable, {0}};
+  for (std::size_t i = 0; i <= given.edges.size(); ++i) {
+    const bool last = i == given.edges.size();
+    const double below = last ? 1 : probability_below(*of.nominal, given.edges[i]);
+    if (!(below - strata.edges.back() >= kLeast))
+      throw InputError(input::at("strata.edges", last ? i - 1 : i), to_text(given.edges[last ? i - 1 : i]),
+                       "ascending, with a probability of 1e-9 or more in every stratum");
+    strata.edges.push_back(below);
+  }
+  to.strata = std::move(strata);
+}
+
 void add_correlated(const std::vector<CorrelatedFields>& given, Population& to) {
   std::vector<bool> taken(to.variables.size(), false);
   for (std::size_t g = 0; g < given.size(); ++g) {
@@ -310,11 +369,8 @@ void add_correlated(const std::vector<CorrelatedFields>& given, Population& to) 
     Correlated group;
     for (std::size_t i = 0; i < given[g].of.size(); ++i) {
       const std::string where = input::at(path + ".of", i), &name = given[g].of[i];
-      const auto found = std::find_if(to.variables.begin(), to.variables.end(),
-                                      [&](const Variable& v) { return name_of(v) == name; });
-      if (found == to.variables.end())
-        throw InputError(where, name, "one of what `drawn` has, such as obstacle.x");
-      const auto k = std::size_t(found - to.variables.begin());
+      const std::size_t k = named(name, where, to);
+      const auto found = to.variables.begin() + std::ptrdiff_t(k);
       if (taken[k]) throw InputError(where, name, "one that stands in no group yet");
       if (found->proposal) throw InputError(where, name, "one without a proposal");
       if (to.velocities > 1 && !group.variables.empty() &&
@@ -333,6 +389,9 @@ void add_correlated(const std::vector<CorrelatedFields>& given, Population& to) 
 
 Population read_population(const std::string& file) {
   Json scene = input::read_scene_fields(file);
+  if (!scene.is_object())
+    throw InputError(file, scene.is_null() ? "nothing" : input::quoted(scene),
+                     "a population: a mapping of fields (docs/reference/formats.md)");
   input::require_kind(scene, input::FileKind::scene, file);
   PopulationFields read;
   population_fields().read(scene, "", read);
@@ -340,7 +399,7 @@ Population read_population(const std::string& file) {
   made.name = std::filesystem::path(file).stem().string();
   if (scene.contains("name")) made.name = input::text("a name, as text").read(scene["name"], "name");
   for (const char* ours :
-       {"drawn", "proposal", "nominal_share", "correlated", "velocities", "within", "per_hour"})
+       {"drawn", "proposal", "nominal_share", "strata", "correlated", "velocities", "within", "per_hour"})
     scene.erase(ours);
   made.scene = input::scene_of(scene, file);
   for (const bool obstacle : {false, true})
@@ -355,6 +414,7 @@ Population read_population(const std::string& file) {
   if (made.variables.empty())
     throw InputError("drawn", "nothing", "one number or more that is drawn, such as obstacle: {x: ...}");
   add_correlated(read.correlated, made);
+  if (read.strata) add_strata(*read.strata, made);
   return made;
 }
 

@@ -57,11 +57,13 @@ class Populations(unittest.TestCase):
         share = -math.expm1(-0.5 * (3 / 2121.319) ** 2)
         found = json.loads(self.campaign(RARE, "rare", "-N", "10000", "--json"))
         self.assertLess(abs(found["share"] - share), 0.05 * share)
-        self.assertLess(found["low"], found["share"])
-        self.assertGreater(found["high"], found["share"])
-        self.assertLess(found["high"] - found["low"], 0.12e-6)
+        for bounds in (found, found["covered"]):
+            self.assertLess(bounds["low"], found["share"])
+            self.assertGreater(bounds["high"], found["share"])
+        self.assertLess(found["covered"]["high"] - found["covered"]["low"], 0.12e-6)
+        self.assertGreater(found["low"], 0.8 * found["share"])
         self.assertEqual(found["largest_weight"], 10)
-        self.assertEqual(found["interval"], "Fay and Feuer")
+        self.assertEqual((found["interval"], found["uncovered"]), ("Waudby-Smith and Ramdas", 0))
         self.assertAlmostEqual(found["per_hour"]["collisions"], 20 * found["share"], delta=1e-12)
         # The sums are those of the blocks, by a reader of another kind.
         with open(self.path("rare/blocks.csv"), encoding="utf-8") as f:
@@ -84,6 +86,36 @@ class Populations(unittest.TestCase):
         self.assertRegex(text.splitlines()[1], r"^share     0\.\d+, with 95 % confidence between .* \(Clopper and Pearson\)$")
         few = self.campaign(RARE.replace("[0, 3]", "[0, 900]"), "few", "-N", "1000")
         self.assertIn("few collisions carry this share", few)
+        # A proposal above the way, of a population of which half of what collides is below it.
+        missed = self.campaign(RARE.replace("2121.319", "10").replace("z: {normal: [0, 3]}", "z: {uniform: [0, 3]}"), "missed",
+                               "-N", "10000")
+        self.assertRegex(missed, r"\nuncovered \d+ collisions were drawn where the proposal hardly draws: ")
+
+    def test_strata(self):
+        text = FIXED + "strata: {of: agent.vz, edges: [-0.4, 0.4]}\n"
+        share = -math.expm1(-0.5 * (100 * math.tan(math.asin(0.003))) ** 2)
+        found = json.loads(self.campaign(text, "strata", "-N", "30000", "--json"))
+        self.assertLess(abs(found["share"] - share), 4 * math.sqrt(share / 30_000))
+        self.assertLess(found["low"], share)
+        self.assertGreater(found["high"], share)
+        self.assertAlmostEqual(found["mean_weight"], 1, delta=1e-12)  # since each stratum has as many
+        result = run("campaign", "--verdicts", self.file(text), "-N", "1000", "--out", self.path("no"))
+        self.assertEqual((result.returncode, result.stderr),
+                         (2, f"vericone: -N: got 1000, must be a multiple of 3, the strata of {self.path('population.yaml')}\n"))
+        for bad, said in (("of: agent.vx, edges: [0]", "strata.of: got agent.vx, must be one of what `drawn` has, such as obstacle.x"),
+                          ("of: agent.vz, edges: [1, 0]", "strata.edges[1]: got 0, must be ascending, with a probability"),
+                          ("of: agent.vz, edges: [9]", "strata.edges[0]: got 9, must be ascending, with a probability")):
+            result = run("campaign", "--verdicts", self.file(FIXED + "strata: {" + bad + "}\n"), "--out", self.path("no"))
+            self.assertEqual((result.returncode, result.stdout), (2, ""))
+            self.assertIn(said, result.stderr)
+
+    def test_refusals_name_the_file(self):
+        result = run("campaign", "--verdicts", self.file("# nothing\n"), "--out", self.path("no"))
+        self.assertEqual((result.returncode, result.stderr),
+                         (2, f"vericone: {self.path('population.yaml')}: got nothing, must be a population: a mapping of fields "
+                             "(docs/reference/formats.md)\n"))
+        wide = FIXED.replace("vy: {normal: [0, 1]}", "vy: {uniform: [-1e308, 1e308]}")
+        self.assertIn("drawn.agent.vy.uniform: got ", run("campaign", "--verdicts", self.file(wide), "--out", self.path("no")).stderr)
 
     def test_memory_does_not_grow(self):
         words = [VERICONE, "campaign", "--verdicts", self.file(FIXED), "--quiet", "--no-figures", "--threads", "1", "-N", "10000000"]
