@@ -169,7 +169,7 @@ export class ScenePage {
     const proved = make("b", {}, "proved"),
       rounded = (): HTMLElement => make("span", {}, "in doubles");
     const rows: (Node | string)[][] = [
-      ["Verdict", this.verdict, proved],
+      ["Verdict", this.verdict, this.verdict === "undecided" ? "not decided" : proved],
       ["Decided by", rung + ": " + RUNG_WORDS[rung], ""],
     ];
     if (this.contact && this.verdict !== "overlapping" && this.verdict !== "touching") {
@@ -223,7 +223,7 @@ export class ScenePage {
     );
     fillTable(
       element<HTMLTableElement>("plane-table"),
-      "Squares of the picture by their verdict, each that of its middle: proved",
+      "Squares of the picture by their verdict, each that of its middle: proved, unless undecided",
       ["verdict", "squares"],
       rows,
     );
