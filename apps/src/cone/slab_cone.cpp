@@ -40,7 +40,8 @@ void run_slab_cone(const ConeCommand& options, const scenes::Scene& scene, const
   const auto safe = pair.safe_half_space();
   const bool disjoint = pair.relation() == Relation::disjoint;
   // Of an agent in front of one side; about its axis.
-  const Eigen::Vector3d axis = safe ? safe->normal.stableNormalized() : Eigen::Vector3d::Zero();
+  Eigen::Vector3d axis = Eigen::Vector3d::Zero();
+  if (safe) axis += safe->normal.stableNormalized();  // a zero without a sign
   const Horizon ever{0, std::numeric_limits<double>::infinity()};
   const Json found = slab_answer(scene, slab, ever, false);
   if (options.json) {

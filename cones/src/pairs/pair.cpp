@@ -329,6 +329,8 @@ Miss Pair::miss(const Vector3d& v_a, const Vector3d& v_b) const {
   return miss;
 }
 
+std::optional<Penetration> Pair::penetration() const { return vericone::penetration(*agent_, *obstacle_); }
+
 std::optional<PlaneSector> Pair::sector(const Vector3d& from, const Vector3d& to,
                                         const Vector3d& across) const {
   const pairs::SightLine line{from, to};

@@ -3,6 +3,7 @@
 // Depths against closed forms, and against the least value of the support function over directions that a
 // dense grid and a descent from its best points find.
 #include <gtest/gtest.h>
+#include <vericone/cones/pair.h>
 #include <vericone/cones/penetration.h>
 #include <algorithm>
 #include <cmath>
@@ -105,7 +106,7 @@ TEST(Penetration, LiesBelowEveryDirectionAndAtTheLeastOfThem) {
 
 void expect_depth(const Placed& agent, const Placed& obstacle, double expected, const std::string& what) {
   SCOPED_TRACE(what);
-  const auto depth = penetration(agent, obstacle);
+  const auto depth = Pair(agent, obstacle).penetration();
   ASSERT_TRUE(depth.has_value());
   EXPECT_LE(depth->least, expected * (1 + 1e-15));
   EXPECT_GE(depth->most, expected * (1 - 1e-15));

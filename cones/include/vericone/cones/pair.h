@@ -7,6 +7,7 @@
 
 #include <vericone/cones/answers.h>
 #include <vericone/cones/ellipsoids/predicates.h>
+#include <vericone/cones/penetration.h>
 #include <vericone/cones/plane_sector.h>
 #include <vericone/geometry/body.h>
 #include <vericone/geometry/world_body.h>
@@ -89,9 +90,9 @@ struct SafeHalfSpace {
 /// Positions are not rounded on the way to a verdict, a relation or a bound: those of bodies that are not
 /// turned hold for the numbers as given. (Where an ellipsoid or a combined quadric has a centre and a
 /// position, the difference of the centres counts to 106 bits.) A rotation rounds a body's own numbers once,
-/// about its own origin, and answers hold for that body. A turned assembly stays as it is, and the other
-/// body, its position too, is rounded into its frame; of two assemblies that with fewer pieces, whichever is
-/// the agent.
+/// about its own origin, and answers hold for that body. A turned assembly stays as it is, unless it holds
+/// one hull alone, and the other body, its position too, is rounded into its frame; of two assemblies that
+/// with fewer pieces, whichever is the agent.
 ///
 /// Laws, for every pair of kinds (tests/cones/pairs/pair_test.cpp):
 ///   (1) Pair(a, b).verdict(v, u) == Pair(b, a).verdict(u, v)
@@ -162,10 +163,14 @@ class Pair {
   [[nodiscard]] Miss miss(const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b) const;
 
   /// Metres between the bodies as they stand, the best estimate: miss() without velocities, which has bounds.
-  /// 0 where they touch or overlap; how deep they do is said along a velocity alone (Miss::depth).
+  /// 0 where they touch or overlap; how deep they do penetration() says, along a velocity Miss::depth.
   [[nodiscard]] double distance() const {
     return miss(Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()).distance;
   }
+
+  /// How deep they overlap as they stand: penetration() of penetration.h, of convex bodies without
+  /// delimiters. Nothing of others, and where they do not overlap.
+  [[nodiscard]] std::optional<Penetration> penetration() const;
 
   /// The cone by the sharpest method there is for these kinds (cone.h). Throws InputError naming "tolerance",
   /// "resolution" or "threads". Cost: two ellipsoids 40 us; combined quadrics milliseconds
