@@ -20,7 +20,7 @@ using engagements::Random;
 namespace {
 
 constexpr double kTurning = 1;  // rad/s, of bodies that turn with their heading
-constexpr double kBall = 0.2, kClear = 0.5, kFar = 3, kApart = 0.5;  // m
+constexpr double kBall = 0.2, kClear = 0.5, kFar = 3, kApart = 0.3;  // m
 
 [[noreturn]] void refuse(const std::string& field, const char* value, const char* requirement) {
   throw InputError(field, value, requirement);
@@ -201,7 +201,7 @@ Start start_amid(std::vector<Obstacle> obstacles, std::size_t agents, std::uint6
   };
   const FreeSpace space(start.obstacles);
   std::vector<Vector3d> places;  // free ones, from which to choose starts and goals
-  const std::size_t tries = 2000 + 400 * agents;
+  const std::size_t tries = 2000 + 1000 * agents;
   for (std::size_t k = 0; k < tries && places.size() < 12 * agents; ++k)
     if (const Vector3d x = any(); space.clear(x) && space.inside(x)) places.push_back(x);
   const auto apart = [&](const Vector3d& x, const auto& other) {
