@@ -2,6 +2,8 @@
 #include "solids/slab_body.h"
 
 #include <vericone/internal/scenes/words.h>
+#include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "input/field_table.h"
@@ -148,8 +150,15 @@ bool is_flat_slab(const Json& body) {
 SceneBody read_flat_slab(const Json& body, const std::string& path) {
   const SlabWord& word = *slab_word_of(body);
   require_known(body, path, {word.name});
-  return within(join(path, word.name),
-                [&] { return part_of(word, word.fields().read(body[word.name], "")); });
+  SceneBody part =
+      within(join(path, word.name), [&] { return part_of(word, word.fields().read(body[word.name], "")); });
+  // Around the middle, as a prism's corners are.
+  std::vector<Vector3d> corners = part.hull()->points();
+  const Vector3d middle = part.placed.middle();
+  std::ranges::sort(corners, {},
+                    [&](const Vector3d& x) { return std::atan2(x.y() - middle.y(), x.x() - middle.x()); });
+  part.placed.body = HullBody(std::move(corners));
+  return part;
 }
 
 std::optional<Slab> take_slab(Json& engagement) {

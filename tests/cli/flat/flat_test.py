@@ -145,6 +145,12 @@ class Flat(unittest.TestCase):
         self.assertAlmostEqual(math.pi - part["psi"], 2 * 3 / 1e6, 8)  # 3 m from its lowest point to the wall
         self.assertAlmostEqual(part["answer"]["time_to_contact"], 3, 9)
         self.assertEqual(cone["answer"]["time_to_contact"], 3)
+        drawn = os.path.join(self.folder, "part")  # its outline goes around it
+        run("cone", self.write(plane % "{normal: [3, 4], offset: 1, extent: 10}"), "--no-figures", "--out", drawn)
+        with open(os.path.join(drawn, "engagement.json"), encoding="utf-8") as f:
+            (arc,) = json.load(f)["obstacle"]["arcs"]
+        area = sum(a[0] * b[1] - a[1] * b[0] for a, b in zip(arc["points"], arc["points"][1:] + arc["points"][:1])) / 2
+        self.assertAlmostEqual(area, 2 * 10 * 10, 9)
         both = self.cone("agent: {pieces: [{center: [0, 0, 5], semi_axes: [1, 1, 1]}, "
                          "{center: [0, 0, -5], semi_axes: [1, 1, 1]}]}\nobstacle: {slab: {normal: [0, 0, 1], "
                          "offsets: [-1, 1]}}\nagent_velocity: [1, 0, 0]\n")
