@@ -15,7 +15,7 @@ set(DOXYGEN_GENERATE_TREEVIEW YES)
 set(DOXYGEN_HAVE_DOT NO)
 set(DOXYGEN_USE_MDFILE_AS_MAINPAGE README.md)
 set(DOXYGEN_STRIP_FROM_INC_PATH geometry/include cones/include cones/testing/include guidance/include
-  guidance/simulation/include guidance/vehicles/include guidance/swarm/include geometry/files/include geometry/octomap/include
+  guidance/simulation/include guidance/vehicles/include guidance/swarm/include guidance/ships/include geometry/files/include geometry/octomap/include
   geometry/fitting/include geometry/lidar/include scenes/include scenes/work/include scenes/scenarios/include scenes/fit/include scenes/scan/include
   scenes/pursuits/include)
 doxygen_add_docs(reference ${DOXYGEN_STRIP_FROM_INC_PATH} README.md docs/reference docs/explanation docs/howto

@@ -25,6 +25,7 @@ MAY_INCLUDE = {
     "simulation": ("geometry", "cones", "guidance"),
     "vehicles": ("geometry", "simulation"),
     "swarm": ("geometry", "cones", "simulation"),
+    "ships": ("geometry", "cones", "simulation"),
     "scenes": ("geometry", "files", "octomap", "cones"),
     "work": ("geometry", "scenes"),
     "scenarios": ("geometry", "files", "cones", "guidance", "simulation", "vehicles", "scenes"),
@@ -51,7 +52,7 @@ def library_of(path):
         return parts[1]
     if parts[0] == "guidance" and parts[1] == "simulation":
         return "simulation"
-    if parts[0] == "guidance" and parts[1] in ("vehicles", "swarm"):
+    if parts[0] == "guidance" and parts[1] in ("vehicles", "swarm", "ships"):
         return parts[1]
     if parts[0] == "scenes" and parts[1] in ("work", "scenarios", "fit", "scan", "pursuits"):
         return {"fit": "fits", "scan": "scanning"}.get(parts[1], parts[1])

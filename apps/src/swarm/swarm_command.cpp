@@ -25,6 +25,7 @@
 #include "output/output_options.h"
 #include "output/progress.h"
 #include "output/results.h"
+#include "swarm/ships_command.h"
 #include "work/interrupt.h"
 #include "work/provenance.h"
 #include "work/threads.h"
@@ -36,8 +37,9 @@ struct SwarmCommand : OutputOptions {
   SwarmCommand() { out = "out/swarm"; }
   std::string start, method = "proved";
   std::uint64_t agents = 0, seed = kDefaultSeed;
-  std::optional<double> step, duration;  // s
-  double sample = 1, lost = 0;
+  std::optional<double> step, duration, sample;  // s
+  double lost = 0;
+  std::vector<double> current;  // of ships
 };
 
 /// A real building, scanned.
@@ -198,6 +200,8 @@ void print_flight(const Json& summary, std::ostream& out) {
 /// Flies a swarm and writes what became of it. Returns the exit status: 1 where a pair touched, or is
 /// undecided, by the method that promises that none does, 130 interrupted. Throws InputError.
 int run_swarm(SwarmCommand command, std::ostream& out) {
+  if (!command.current.empty())
+    throw InputError("--current", "a current", "left out: " + command.start + " has no water");
   (void)options_of(command);
   work::StagedFolder folder(command.out, "--out");
   const auto named = [](auto&& work) {
@@ -216,7 +220,7 @@ int run_swarm(SwarmCommand command, std::ostream& out) {
   Swarm swarm = named([&] { return Swarm(std::move(start.agents), std::move(start.obstacles), options); });
   FlightOptions flown;
   flown.duration = command.duration.value_or(flown.duration);
-  flown.sample = command.sample;
+  flown.sample = command.sample.value_or(flown.sample);
   Progress progress(command.quiet);
   flown.progress = [&](double share) { return progress.show("flying " + command.start, share); };
   const SwarmFlight flight = named([&] { return fly(swarm, flown); });
@@ -249,26 +253,41 @@ namespace vericone {
 
 int swarm_command(CommandLine& line) {
   swarm::SwarmCommand swarm;
-  line.option(
-          "start", swarm.start,
-          "circle, sphere, crossing, gap, forest, slender, turning, room (docs/explanation/swarms.md), or a "
-          "scenario's file")
+  line.option("start", swarm.start,
+              "circle, sphere, crossing, gap, forest, slender, turning, room, a scenario's file "
+              "(docs/explanation/swarms.md); imazu-01 to imazu-22 or the harbour (docs/explanation/ships.md)")
       .required();
   line.option("-N,--agents", swarm.agents, "Agents, 0: as many as the measured tables have, or the scenario");
   line.option("--seed", swarm.seed, "Seed of all random numbers");
   line.option("--method", swarm.method, "proved; orca, as published, changes velocities at once");
   line.option("--out", swarm.out, "Folder for tables and picture");
-  line.option("--step", swarm.step, "Between two commands, s; left out: the scenario's, or 0.125");
+  line.option("--step", swarm.step,
+              "Between two commands, s; left out: the scenario's, or 0.125, of ships 10");
   line.option("--duration", swarm.duration,
-              "At most, s; ends when all have arrived; left out: the scenario's, or 600");
-  line.option("--sample", swarm.sample, "Between two rows of an agent in positions.csv, s");
+              "At most, s; ends when all have arrived; left out: the scenario's, 600, ships 10800");
+  line.option("--sample", swarm.sample,
+              "Between two rows of an agent in positions.csv, s; left out: 1, of ships 30");
   line.option("--lost", swarm.lost, "Of the messages of one agent to another the share that is lost");
+  line.option("--current", swarm.current, "Of the water that ships sail, EAST,NORTH m/s").commas();
   line.option("--threads", swarm.threads, "Threads, 0: one per processor");
   line.negative_flag("--no-figures", swarm.figures, "Tables only");
   line.flag("--quiet", swarm.quiet, "No progress");
   line.flag("--json", swarm.json, "Print JSON");
   line.read();
   keep_words(line, swarm);
+  if (ships::is_of_ships(swarm.start)) {
+    ships::ShipsCommand command;
+    static_cast<OutputOptions&>(command) = swarm;
+    command.start = swarm.start;
+    command.agents = swarm.agents;
+    command.method = swarm.method;
+    command.lost = swarm.lost;
+    command.step = swarm.step;
+    command.duration = swarm.duration;
+    command.sample = swarm.sample;
+    command.current = swarm.current;
+    return ships::run_ships(command, std::cout);
+  }
   return swarm::run_swarm(swarm, std::cout);
 }
 
