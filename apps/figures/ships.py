@@ -34,15 +34,16 @@ for i in range(count):
     axis.plot(x[:, i], y[:, i], color=hues[i], lw=0.8)
     axis.plot(x[0, i], y[0, i], "o", color=hues[i], ms=3)
     axis.annotate(str(i), (x[0, i], y[0, i]), textcoords="offset points", xytext=(3, 3), fontsize=6, color=hues[i])
-shown = set()
+shown, handles = set(), {}
 for pair in summary["pairs"]:
     a, b = pair["a"], pair["b"]
     between = np.hypot(x[:, a] - x[:, b], y[:, a] - y[:, b])
     nearest = int(between.argmin())
     shown |= {(nearest, a), (nearest, b)} if pair["seen"] is not None else set()
-    apart.plot(times / 60, between, color=GREY if pair["seen"] is None else hues[a], lw=0.8,
-               ls=":" if pair["seen"] is None else "-",
-               label="%d and %d: %s" % (a, b, "no risk" if pair["seen"] is None else pair["encounter"]))
+    # In the colours of both ships by turns.
+    looks = [(GREY, ":")] if pair["seen"] is None else [(hues[a], "-"), (hues[b], (0, (3, 3)))]
+    lines = [apart.plot(times / 60, between, color=color, lw=0.8, ls=style)[0] for color, style in looks]
+    handles["%d and %d: %s" % (a, b, "no risk" if pair["seen"] is None else pair["encounter"])] = tuple(lines)
 for k, i in sorted(shown):
     ship = {key: float(value) for key, value in ships[i].items()}
     outline(axis, k, i, ship["domain_ahead"], ship["domain_abeam"], (ship["center_ahead"], ship["center_port"]),
@@ -57,9 +58,9 @@ apart.set_xlabel("t (min)")
 apart.set_ylabel("distance of middles (nautical miles)")
 least = summary["least_domain_distance"]
 kept, pairs = summary["pairs_kept"], len(summary["pairs"])
-apart.set_title("%d of %d pairs kept both domains%s" % (kept, pairs, "" if least is None else ", by %.3g m: proved" % least),
-                fontsize=6)
-apart.legend(fontsize=5, loc="upper right" if pairs < 7 else "lower right", ncol=1 if pairs < 7 else 2, facecolor="white", framealpha=0.9,
-             edgecolor="none")
+by = "" if least is None else ", by %.3g m: proved" % least
+apart.set_title("%d of %d pairs kept both domains%s" % (kept, pairs, by), fontsize=6)
+apart.legend(handles.values(), handles.keys(), fontsize=5, loc="lower left", ncol=1 if pairs < 7 else 2,
+             facecolor="white", framealpha=0.9, edgecolor="none", handlelength=3)
 figure.tight_layout(pad=0.4)
 save(figure, "ships")

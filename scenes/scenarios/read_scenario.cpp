@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
-#include <ranges>
 #include <utility>
 
 #include "input/assembly_body.h"
@@ -14,7 +13,6 @@
 #include "input/scene.h"
 #include "json/plain_text.h"
 #include "scenarios/parts.h"
-#include "solids/slab_body.h"
 #include "units/geographic.h"
 
 namespace vericone::scenario {
@@ -183,72 +181,13 @@ struct ScenarioFile : simulation::Scenario {
   Readings* readings = nullptr;
 };
 
-/// A body's mapping that is a half-space or a slab without extent; null where it is none.
-Json* endless(Json& body) {
-  if (!body.is_object()) return nullptr;
-  Json& shape = body.contains("shape") && body["shape"].is_object() ? body["shape"] : body;
-  return input::is_endless(shape) ? &shape : nullptr;
-}
-
-/// The greatest speed of a body, m/s; nothing where none is known.
-std::optional<double> most_speed(const simulation::Body& body, const simulation::Scenario& scenario) {
-  const double start = body.start.velocity.norm();
-  const bool partner = std::any_of(scenario.bodies.begin(), scenario.bodies.end(), [&](const auto& other) {
-    return other.pilot && std::ranges::count(other.pilot->partners, body.name) > 0;
-  });
-  if (body.vehicle || body.road || partner) return std::nullopt;
-  if (!body.pilot) return start;
-  const simulation::Pilot& pilot = *body.pilot;
-  if (pilot.own || pilot.through || !simulation::guarded(pilot)) return std::nullopt;
-  if (!pilot.guide.clearance.longitudinal) return start;
-  return std::isfinite(pilot.fastest) ? std::optional(std::max(start, pilot.fastest)) : std::nullopt;
-}
-
-/// How far from the point of its plane nearest to its origin a half-space or a slab at `path` can be met.
-double reachable(const Json& body, const std::string& path, const Json& shape,
-                 const simulation::Scenario& scenario) {
-  const auto refuse = [&](const std::string& why) {
-    throw InputError(path + ".extent", "nothing", "given, metres: how far from there it counts; " + why);
-  };
-  const Slab slab = input::read_endless(shape, path);
-  for (const char* moves : {"velocity", "speed", "pilot", "vehicle", "road"})
-    if (body.contains(moves)) refuse(std::string("it has a ") + moves);
-  const char* place = body.contains("position") ? "position" : "center";
-  Eigen::Vector3d at = Eigen::Vector3d::Zero();
-  if (body.contains(place)) at = input::read_vector<3>(body[place], path + "." + place, " (metres)");
-  const auto off = [&](double x) { return std::isfinite(x) ? std::abs(x) / slab.normal.stableNorm() : 0.0; };
-  double most = 0;
-  for (const simulation::Body& other : scenario.bodies) {
-    const auto speed = most_speed(other, scenario);
-    if (!speed)
-      refuse("nothing says how fast " + other.name + " may become (of a guarded pilot its fastest does)");
-    const double from = (other.start.position - at).norm() + simulation::reach(other.shape);
-    most = std::max(most, from + (*speed + 2 * scenario.proof.drift) * scenario.duration);
-  }
-  return (most + std::max(off(slab.low), off(slab.high)) + 2 * scenario.proof.padding) * (1 + 1e-9) + 1;
-}
-
 void read_bodies(const Json& value, const std::string& path, ScenarioFile& scenario) {
   if (!value.is_array() || value.empty()) throw InputError(path, quoted(value), "a list of bodies");
-  // Those without end are read last: what the others can reach of them is the body.
-  std::vector<std::optional<simulation::Body>> read(value.size());
-  std::vector<std::optional<scenes::Reading>> readings(value.size());
-  Json given = value;
   for (std::size_t i = 0; i < value.size(); ++i) {
-    if (endless(given[i])) continue;
-    read[i] = read_body(value[i], at(path, i), scenario.folder, readings[i]);
-    scenario.bodies.push_back(*read[i]);
+    std::optional<scenes::Reading> reading;
+    scenario.bodies.push_back(read_body(value[i], at(path, i), scenario.folder, reading));
+    if (scenario.readings) scenario.readings->push_back(std::move(reading));
   }
-  for (std::size_t i = 0; i < value.size(); ++i) {
-    Json* shape = endless(given[i]);
-    if (!shape) continue;
-    const double extent = reachable(given[i], at(path, i), *shape, scenario);
-    (*shape)[shape->contains("half_space") ? "half_space" : "slab"]["extent"] = extent;
-    read[i] = read_body(given[i], at(path, i), scenario.folder, readings[i]);
-  }
-  scenario.bodies.clear();
-  for (auto& body : read) scenario.bodies.push_back(std::move(*body));
-  if (scenario.readings) *scenario.readings = std::move(readings);
 }
 
 void read_orifices(const Json& value, const std::string& path, ScenarioFile& scenario) {

@@ -44,7 +44,8 @@ class Ellipsoids : public Family {
     contact.earliest = enclosure ? std::max(enclosure->lo(), 0.0) : 0;
     contact.latest = enclosure ? enclosure->hi() : std::numeric_limits<double>::infinity();
     const auto time = time_to_contact(oracle_, v_a, v_b);
-    contact.time = time.value_or(contact.earliest);
+    // Grazing, the estimate has few digits.
+    contact.time = std::max(contact.earliest, std::min(time.value_or(contact.earliest), contact.latest));
     const Vector3d w = v_a - v_b;
     // The closest points just before: at the contact itself rounding may make them overlap.
     for (double before = 0x1p-50; before < 1e-3 && std::isfinite(contact.time); before *= 32) {

@@ -178,7 +178,7 @@ HullBody clipped(const Slab& slab, const Vector3d& about, double extent) {
   const Vector3d n = sides.front().normal.stableNormalized();
   int axis = 0;
   n.cwiseAbs().maxCoeff(&axis);
-  const bool along_axis = std::abs(n(axis)) == 1;
+  const bool along_axis = (n.array() != 0).count() == 1;
   const Vector3d u = along_axis ? Vector3d(Vector3d::Unit((axis + 1) % 3)) : n.unitOrthogonal();
   const Vector3d v = n.cross(u), foot = about - n.dot(about) * n;
   const double length = sides.front().normal.stableNorm(), near = sides.front().height / length,
@@ -189,13 +189,12 @@ HullBody clipped(const Slab& slab, const Vector3d& about, double extent) {
   const double slack = 0x1p-48 * (about.cwiseAbs().maxCoeff() + std::abs(near) + std::abs(other));
   const double wide = extent * (1 + 0x1p-48) + slack, far = sides.size() == 2 ? other : near - wide;
   std::vector<Vector3d> corners;
-  for (const double height : {near, far})
+  for (std::size_t k = 0; k < 2; ++k)
     for (const double x : {-wide, wide})
       for (const double y : {-wide, wide}) {
-        Vector3d& corner = corners.emplace_back(foot + height * n + x * u + y * v);
+        Vector3d& corner = corners.emplace_back(foot + (k == 0 ? near : far) * n + x * u + y * v);
         if (!corner.allFinite()) throw InputError("extent", to_text(extent), "one whose corners are doubles");
-        if (height == near) move_out(corner, sides.front());
-        if (height == far && sides.size() == 2) move_out(corner, sides.back());
+        if (k < sides.size()) move_out(corner, sides[k]);
       }
   return HullBody(std::move(corners));
 }

@@ -83,6 +83,8 @@ TEST_P(EveryPair, AgreesWithSampledSweepsAndItsMirrorImage) {
       ASSERT_EQ(miss.most, 0);
       ASSERT_LE(contact->earliest, contact->latest);
       ASSERT_GT(contact->earliest, 0);
+      ASSERT_TRUE(std::isnan(contact->time) ||
+                  (contact->time >= contact->earliest && contact->time <= contact->latest));
       ASSERT_GE(miss.depth, 0);
       ASSERT_EQ(miss.distance, -miss.depth);
       // A shift by the depth is enough.
@@ -118,6 +120,28 @@ INSTANTIATE_TEST_SUITE_P(Kinds, EveryPair,
 
 Placed ball(const Vector3d& center, double radius) {
   return Placed(Ellipsoid::from_axes(center, Vector3d::Constant(radius)));
+}
+
+TEST(PairAnswers, AGrazingContactsTimeIsWithinItsBracket) {
+  RandomBodies random(7);
+  const Vector3d still = Vector3d::Zero();
+  int grazing = 0;
+  while (grazing < 40) {
+    const Ellipsoid a = random.ellipsoid({0, 0, 0}, 1, 4), b = random.ellipsoid({12, 0, 0}, 1, 4);
+    const Pair pair{Placed(a), Placed(b)};
+    if (pair.relation() != Relation::disjoint) continue;
+    // Between the line of centers and a direction beside it, to the last double.
+    Vector3d inside = b.center() - a.center(), outside = inside + random.in_box(30);
+    if (pair.verdict(inside, still) != Verdict::in || pair.verdict(outside, still) != Verdict::out) continue;
+    for (Vector3d middle = 0.5 * (inside + outside); middle != inside && middle != outside;
+         middle = 0.5 * (inside + outside))
+      (pair.verdict(middle, still) == Verdict::in ? inside : outside) = middle;
+    const auto contact = pair.contact(inside, still);
+    ASSERT_TRUE(contact);
+    EXPECT_GE(contact->time, contact->earliest);
+    EXPECT_LE(contact->time, contact->latest);
+    ++grazing;
+  }
 }
 
 TEST(PairAnswers, OfTwoBallsAreThoseOfTheClosedForms) {

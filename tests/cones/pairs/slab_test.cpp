@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <vericone/cones/slab.h>
 #include <vericone/geometry/error.h>
+#include <vericone/geometry/exact/rational.h>
 #include <vericone/testing/random_bodies.h>
 #include <algorithm>
 #include <array>
@@ -228,6 +229,37 @@ TEST(Slabs, PartsOfThemAreTouchedExactlyAlongAxes) {
 }
 
 /// A normal's length counts with the heights, and with nothing else: powers of two change no bit.
+/// All corners of a side are in front of it, and by roundings: of tilts below what a length of 1 shows, and
+/// of slabs without thickness.
+TEST(Slabs, PartsHoldTheirSidesWhateverTheNormal) {
+  constexpr double kExtent = 1000;
+  for (const Slab& slab :
+       {Slab{{1e-8, 0, 1}, -std::numeric_limits<double>::infinity(), 0}, Slab{{0, -1e-9, 2}, 0.5, 0.5},
+        Slab{{1, 2, 3}, 1, 1}, Slab{{0, 0, 3}, 1 - 0x1p-53, 1}, Slab{{0.1, 0.2, -0.3}, -2, 7}}) {
+    const auto side = [&](const Eigen::Vector3d& corner, double height) {
+      Rational sum = -Rational(height);
+      for (int i = 0; i < 3; ++i) sum += Rational(slab.normal(i)) * Rational(corner(i));
+      return sum;
+    };
+    Rational highest = -1000000, lowest = 1000000;
+    int in_front = 0, behind = 0;
+    for (const Eigen::Vector3d& corner : clipped(slab, {1, 2, 3}, kExtent).points()) {
+      const Rational over = side(corner, slab.high);
+      highest = std::max(highest, over);
+      in_front += over >= 0;
+      if (!std::isfinite(slab.low)) continue;
+      const Rational under = side(corner, slab.low);
+      lowest = std::min(lowest, under);
+      behind += under <= 0;
+    }
+    EXPECT_GE(in_front, 4);
+    EXPECT_LE(highest, Rational(1e-11));
+    if (!std::isfinite(slab.low)) continue;
+    EXPECT_GE(behind, 4);
+    EXPECT_GE(lowest, Rational(-1e-11));
+  }
+}
+
 TEST(Slabs, NormalsHaveAnyLength) {
   const Placed drum(Convex::cylinder(5, 4).swollen(0.5), Pose{{3, 1, 2}, Matrix3d::Identity()});
   const Vector3d n(0.6, -0.3, 0.7);
