@@ -147,6 +147,15 @@ TEST(ClosestApproaches, OfTables) {
   }
 }
 
+TEST(ClosestApproaches, OfAnySpeed) {
+  const Sighting other = under_way({300, 400}, {0, 0});
+  for (const double speed : {1e-170, 1e-155, 1.0, 1e160}) {
+    const ClosestApproach found = closest_approach(under_way({0, 0}, {speed, 0}), other);
+    EXPECT_NEAR(found.time * speed, 300, 1e-11);
+    EXPECT_NEAR(found.distance, 400, 1e-11);
+  }
+}
+
 TEST(ClosestApproaches, ToRounding) {
   Random random(2, 0);
   for (int i = 0; i < 2000; ++i) {

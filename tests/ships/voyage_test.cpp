@@ -123,6 +123,9 @@ TEST(Voyages, RefuseWhatCannotBeSailed) {
   refused(
       "step", [](std::vector<Ship>&) {}, options);
   EXPECT_THROW(ships_of("imazu-23"), InputError);
+  // A step in which she would turn by more than her way is known for; no step at all.
+  refused("ships[0].handling.radius", [](std::vector<Ship>& ships) { ships[0].handling.radius = 100; });
+  EXPECT_THROW(sail(ships_of("imazu-05"), {}, {.duration = 1}), InputError);
   EXPECT_EQ(encounter_names().size(), 23U);
 }
 

@@ -251,6 +251,48 @@ TEST(SwarmFlight, IsTheSameOnAnyNumberOfThreads) {
   EXPECT_GT(flights[0].touched.size(), 0u);
 }
 
+/// What is said of the least distance is said of all pairs: of such, too, as sweep far in a block of time.
+TEST(SwarmFlight, LeastDistancesAreOfPairsThatFlyApart) {
+  std::vector<Agent> agents(2);
+  for (std::size_t i = 0; i < 2; ++i) {
+    const double side = i == 0 ? -1 : 1;
+    agents[i].body = Solid::ball(0.2);
+    agents[i].position = Vector3d(6.6 + 0.25 * side, 0, 0);
+    agents[i].velocity = Vector3d(side, 0, 0);
+    agents[i].wished = 1;
+    agents[i].fastest = 2;
+    agents[i].goals = {Vector3d(100 * side, 0, 0)};
+  }
+  FlightOptions options;
+  options.duration = 20;
+  for (const double along : {0.0, 500.0}) {  // with a third one far away
+    std::vector<Agent> all = agents;
+    if (along > 0) {
+      all.push_back(agents[0]);
+      all.back().position.y() += along;
+      all.back().goals[0].y() += along;
+    }
+    Swarm swarm(all, {}, {});
+    const SwarmFlight flight = fly(swarm, options);
+    EXPECT_TRUE(flight.touched.empty());
+    EXPECT_LE(flight.least_distance, 0.1);
+    EXPECT_GT(flight.least_distance, 0.09);
+  }
+  // Nobody is proved of where roundings are more than what is counted.
+  agents[1].fastest = 1e5;
+  agents[1].wished = 1e5;
+  agents[1].most = 1e5;
+  agents[1].goals = {Vector3d(9.9e4, 0, 0)};
+  agents[1].velocity = Vector3d(9e4, 0, 0);
+  agents[1].position.x() = 9.99e4;
+  EXPECT_THROW(
+      {
+        Swarm swarm(agents, {}, {});
+        fly(swarm, options);
+      },
+      InputError);
+}
+
 TEST(SwarmFlight, RefusesTimesThatAreNone) {
   Swarm swarm(start_of("circle", 3, 1).agents, {}, {});
   FlightOptions options;

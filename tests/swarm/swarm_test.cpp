@@ -269,6 +269,9 @@ TEST(Swarm, RefusesWhatItCannotFly) {
   bad[1].turning = -1;
   EXPECT_EQ(refused(bad), "agents[1].turning");
   bad = good;
+  bad[1].body.rotation.col(0) *= -1;
+  EXPECT_EQ(refused(bad), "agents[1].body.rotation");
+  bad = good;
   bad[0].wished = 3;
   EXPECT_EQ(refused(bad), "agents[0].wished");
   bad = good;

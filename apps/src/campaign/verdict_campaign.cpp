@@ -107,6 +107,8 @@ Json growth_of(const std::vector<Tally>& blocks, const Population& population) {
   for (std::size_t i = 0; i < blocks.size(); ++i) {
     add(blocks[i], all);
     if (double(i + 1) < next && i + 1 < blocks.size()) continue;
+    // Where each stratum has as many encounters alone are these a sample of the population.
+    if (population.strata && all.encounters % population.strata->count() != 0) continue;
     next = std::max(next * factor, double(i + 2));
     Json point = bounds_json(estimate_of(all, population));
     point["encounters"] = all.encounters;

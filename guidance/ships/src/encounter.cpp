@@ -132,9 +132,13 @@ Plane<exact::Integer> whole(const Vector2d& x, const Vector2d& y) {
 
 ClosestApproach closest_approach(const Sighting& a, const Sighting& b) {
   const Vector2d c = b.position - a.position, w = a.velocity - b.velocity;
-  const double square = w.squaredNorm();
-  if (!(square > 0)) return {0, c.norm()};
-  return {dot(c, w) / square, std::abs(cross(c, w)) / std::sqrt(square)};
+  const double largest = w.lpNorm<Eigen::Infinity>();
+  if (!(largest > 0)) return {0, c.norm()};
+  // By a power of two, so that squares neither vanish nor overflow.
+  const int scale = std::ilogb(largest);
+  const Vector2d unit = w.unaryExpr([&](double x) { return std::scalbn(x, -scale); });
+  const double square = unit.squaredNorm();
+  return {std::scalbn(dot(c, unit) / square, -scale), std::abs(cross(c, unit)) / std::sqrt(square)};
 }
 
 Sign compare_approach(const Sighting& a, const Sighting& b, double distance) {

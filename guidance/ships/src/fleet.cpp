@@ -86,7 +86,13 @@ void check(const FleetOptions& options) {
 Fleet::Fleet(const std::vector<Ship>& ships, const FleetOptions& options) : ships_(ships), options_(options) {
   check(options);
   for (std::size_t i = 0; i < ships.size(); ++i) {
-    check(ships[i], "ships[" + std::to_string(i) + "]");
+    const std::string name = "ships[" + std::to_string(i) + "]";
+    check(ships[i], name);
+    // What a piece of the way is known by (after(), its quintics) holds for half a radian.
+    const double way = std::max(ships[i].speed, ships[i].wished) * std::max(options.step, kStopPiece);
+    if (!(way <= 0.5 * ships[i].handling.radius))
+      refuse(name + ".handling.radius", ships[i].handling.radius,
+             ("at least " + to_text(2 * way) + " m: half a radian a step, and in 10 s").c_str());
     states_.push_back({ships[i].position, ships[i].heading, ships[i].speed, ships[i].curvature});
     starts_.push_back(ships[i].position);
     stops_.push_back(stop_from(ships[i].handling, states_[i]));
@@ -197,6 +203,7 @@ void Fleet::watch(std::size_t number) {
       passing(a, based(a), b, at_b, options_.horizon) != Passing::meets &&
       passing(a, at_a, b, based(b), options_.horizon) != Passing::meets) {
     watch.active = false;
+    watch.role = {Encounter::none, Encounter::none};
     return;
   }
   for (const int k : {0, 1}) {
@@ -342,7 +349,7 @@ bool Fleet::near(std::size_t i, std::size_t j) const {
     const Handling& handling = ships_[k].handling;
     const double fast = states_[k].speed + handling.faster * options_.step;
     return fast * options_.step + 0.5 * fast * fast / handling.slower + ships_[k].domain.reach() +
-           handling.length;
+           std::max(handling.length, handling.beam);
   };
   return (states_[i].position - states_[j].position).norm() <= covered(i) + covered(j);
 }

@@ -13,7 +13,6 @@ using simulation::Curve, simulation::Jet, simulation::Quintic, simulation::Track
 
 namespace {
 
-constexpr double kStopPiece = 10;  // s
 constexpr double kPadding = 1e-6;  // m: rounding of what is proved again a step later
 
 Vector3d lifted(const Vector2d& x) { return {x.x(), x.y(), 0}; }
@@ -182,9 +181,14 @@ DomainProof prove_domains(const Sailed& a, const Sailed& b, double from, double 
   simulation::ProofOptions options;
   options.padding = kPadding + std::max(a.error, b.error);
   const simulation::PairProof first = simulation::prove(a.domain, b.hull, from, until, options);
-  if (first.verdict != simulation::ProofVerdict::avoided) return {first.verdict, 0};
+  // Of a domain whose track is known to an error alone a touch is none.
+  const auto said = [](const Sailed& ship, simulation::ProofVerdict verdict) {
+    const bool sure = !(ship.error > 0) || verdict != simulation::ProofVerdict::touched;
+    return sure ? verdict : simulation::ProofVerdict::undecided;
+  };
+  if (first.verdict != simulation::ProofVerdict::avoided) return {said(a, first.verdict), 0};
   const simulation::PairProof second = simulation::prove(a.hull, b.domain, from, until, options);
-  if (second.verdict != simulation::ProofVerdict::avoided) return {second.verdict, 0};
+  if (second.verdict != simulation::ProofVerdict::avoided) return {said(b, second.verdict), 0};
   return {first.verdict, std::min(first.least_distance, second.least_distance)};
 }
 

@@ -9,6 +9,8 @@
 
 namespace vericone::ships {
 
+inline constexpr double kStopPiece = 10;  // s, of the pieces that a stop is cut into
+
 /// Through the water.
 struct State {
   Eigen::Vector2d position = Eigen::Vector2d::Zero();  // m

@@ -35,6 +35,8 @@ Voyage sail(const std::vector<Ship>& ships, const FleetOptions& options, const V
   for (const auto& [name, value] : {std::pair("duration", voyage.duration), {"sample", voyage.sample}})
     if (!(value > 0) || !std::isfinite(value))
       throw InputError(name, to_text(value), "a positive finite number (seconds)");
+  if (!(voyage.duration >= options.step))
+    throw InputError("duration", to_text(voyage.duration), "at least a step (seconds)");
   if (ships.empty()) throw InputError("ships", "none", "one or more");
   Fleet fleet(ships, options);
   Voyage found;

@@ -19,8 +19,12 @@ constexpr int kHalvings = 8;
 
 }  // namespace
 
-BlockProof::BlockProof(const std::vector<Agent>& agents, const std::vector<Obstacle>& obstacles, int threads)
-    : agents_(agents.size()), threads_(threads), least_(std::numeric_limits<double>::infinity()) {
+BlockProof::BlockProof(const std::vector<Agent>& agents, const std::vector<Obstacle>& obstacles, int threads,
+                       double from)
+    : agents_(agents.size()),
+      threads_(threads),
+      from_(from),
+      least_(std::numeric_limits<double>::infinity()) {
   for (const Agent& agent : agents) solids_.push_back(agent.body);
   for (const Obstacle& obstacle : obstacles) solids_.push_back(obstacle.body);
   for (const Solid& solid : solids_) bodies_.push_back({Prepared(solid)});
@@ -164,24 +168,31 @@ void BlockProof::prove(double until) {
     numbers.push_back(static_cast<std::uint32_t>(i));
     places.push_back(middles[i]);
   }
-  const Cells cells(places, widest + in_cells);
-  std::vector<std::vector<Bound>> found(static_cast<std::size_t>(std::max(1, threads_)));
-  on_threads(agents_, threads_, [&](std::size_t a, std::size_t k) {
-    const auto consider = [&](std::size_t b) {
-      if (b <= a) return;
-      const double far = balls[a].radius + balls[b].radius;
-      // Beyond it by more than the least distance so far nothing changes.
-      const double distance = (balls[a].middle - balls[b].middle).norm();
-      if (distance > far * (1 + 1e-12) && distance - far > least_) return;
-      if (have_met(a, b)) return;
-      if (const Bound one = bound(a, b, until); one.gap < least_) found[k].push_back(one);
-    };
-    cells.around(middles[a], [&](std::uint32_t number) { consider(numbers[number]); });
-    for (const std::size_t b : apart_from_cells) consider(b);
-  });
-  std::vector<Bound> all;
-  for (const std::vector<Bound>& part : found) all.insert(all.end(), part.begin(), part.end());
-  settle(std::move(all), until);
+  double spread = 0;
+  for (const Vector3d& place : places) spread = std::max(spread, (place - places.front()).norm());
+  // Who stands in no neighbouring cell is farther away than `beyond`: wider, until that is no less than what
+  // is said of the others, or nobody is left out.
+  for (double beyond = 0.5 * widest;; beyond *= 4) {
+    const Cells cells(places, widest + in_cells + beyond);
+    std::vector<std::vector<Bound>> found(static_cast<std::size_t>(std::max(1, threads_)));
+    on_threads(agents_, threads_, [&](std::size_t a, std::size_t k) {
+      const auto consider = [&](std::size_t b) {
+        if (b <= a) return;
+        const double far = balls[a].radius + balls[b].radius;
+        // Beyond it by more than the least distance so far nothing changes.
+        const double distance = (balls[a].middle - balls[b].middle).norm();
+        if (distance > far * (1 + 1e-12) && distance - far > least_) return;
+        if (have_met(a, b)) return;
+        if (const Bound one = bound(a, b, until); one.gap < least_) found[k].push_back(one);
+      };
+      cells.around(middles[a], [&](std::uint32_t number) { consider(numbers[number]); });
+      for (const std::size_t b : apart_from_cells) consider(b);
+    });
+    std::vector<Bound> all;
+    for (const std::vector<Bound>& part : found) all.insert(all.end(), part.begin(), part.end());
+    settle(std::move(all), until);
+    if (least_ <= beyond || beyond > 2 * spread) break;
+  }
   from_ = until;
   for (std::size_t i = 0; i < agents_; ++i) {
     legs_[i].clear();

@@ -15,7 +15,8 @@ namespace vericone::swarm {
 /// Agents and obstacles, whose numbers come after those of the agents.
 class BlockProof {
  public:
-  BlockProof(const std::vector<Agent>& agents, const std::vector<Obstacle>& obstacles, int threads);
+  BlockProof(const std::vector<Agent>& agents, const std::vector<Obstacle>& obstacles, int threads,
+             double from = 0);
 
   /// What all agents flew in a step from `t` on.
   void add(const std::vector<Flown>& flown, double t, double step);

@@ -22,10 +22,12 @@ void check(const Solid& body, const std::string& name) {
       refuse(name + ".half[" + std::to_string(k) + "]", body.half(k), "a positive finite number (m)");
   if (!((body.rotation.transpose() * body.rotation - Eigen::Matrix3d::Identity()).norm() < 1e-12))
     throw InputError(name + ".rotation", "another matrix", "orthonormal to 1e-12");
+  if (!(body.rotation.determinant() > 0))
+    throw InputError(name + ".rotation", "a reflection", "a rotation, of determinant 1");
 }
 
 void check(const Vector3d& x, const std::string& name) {
-  if (!x.allFinite() || x.lpNorm<Eigen::Infinity>() > 1e5)
+  if (!x.allFinite() || x.lpNorm<Eigen::Infinity>() > kFarthest)
     throw InputError(name, to_text(x.x()) + ", " + to_text(x.y()) + ", " + to_text(x.z()),
                      "within 1e5 m (m/s)");
 }

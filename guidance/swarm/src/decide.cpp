@@ -186,6 +186,8 @@ void Swarm::State::ask_own_laws() {
     std::vector<BodyState> others;
     for (const Neighbour& one : rooms[0].neighbours)
       others.push_back(state(agents[one.index].body, agents[one.index].position, agents[one.index].velocity));
+    for (const std::uint32_t j : wide)
+      others.push_back(state(obstacles[j].body, obstacles[j].position, Vector3d::Zero()));
     for (const Neighbour& one : rooms[0].obstacles)
       others.push_back(state(obstacles[one.index].body, obstacles[one.index].position, Vector3d::Zero()));
     accelerations[i] = agent.steering(now(), state(agent.body, agent.position, agent.velocity), others);
@@ -226,7 +228,7 @@ void Swarm::State::decide(std::size_t i, Scratch& scratch) {
   gather(i, scratch);
   look_at(i, scratch);
   const auto limited = [&](Vector3d a) {
-    if (const double size = a.norm(); size > agent.most) a *= agent.most / size;
+    if (const double size = a.stableNorm(); size > agent.most) a *= agent.most / size;
     return a;
   };
   Vector3d wanted;

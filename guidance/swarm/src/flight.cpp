@@ -73,8 +73,8 @@ SwarmFlight fly(Swarm& swarm, const FlightOptions& options) {
   flight.arrived.assign(count, std::numeric_limits<double>::infinity());
   flight.path.assign(count, 0);
   for (const Agent& agent : swarm.agents()) flight.straight.push_back(straight_of(agent));
-  BlockProof proof(swarm.agents(), swarm.obstacles(), swarm.options().threads);
   const double step = swarm.options().step, begin = swarm.time();
+  BlockProof proof(swarm.agents(), swarm.obstacles(), swarm.options().threads, begin);
   flight.samples.push_back({begin, positions_of(swarm)});
   std::size_t there = 0;
   int in_block = 0;

@@ -18,6 +18,9 @@ void check(const Agent& agent, const std::string& name);
 void check(const Obstacle& obstacle, const std::string& name);
 void check(const SwarmOptions& options);
 
+/// m: what is proved counts the rounding of places up to here.
+inline constexpr double kFarthest = 1e5;
+
 // Deadlocks: an agent that in kLook seconds has come nearer to its goal by less than kProgress of what it
 // flies alone turns kAside rad off for kLong seconds.
 inline constexpr double kLook = 2, kProgress = 0.4, kLong = 6;

@@ -207,6 +207,9 @@ void Swarm::step() {
   for (std::size_t i = 0; i < count; ++i) {
     s.counts.fallbacks += !s.orca() && !s.flies[i] && s.agents[i].velocity.norm() > 0;
     s.move(i);
+    if (const Vector3d& at = s.agents[i].position; !(at.lpNorm<Eigen::Infinity>() <= kFarthest))
+      throw InputError("agents[" + std::to_string(i) + "].position", to_text(at.lpNorm<Eigen::Infinity>()),
+                       "within 1e5 m throughout");
     s.watch(i);
   }
   s.counts.commands += count;

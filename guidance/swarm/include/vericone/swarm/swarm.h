@@ -140,7 +140,8 @@ class Swarm {
   Swarm& operator=(Swarm&&) noexcept;
   ~Swarm();
 
-  /// Cost: docs/measured/swarms.md.
+  /// Throws InputError where an agent gets farther than 1e5 m from the origin, or its own law says no finite
+  /// acceleration. Cost: docs/measured/swarms.md.
   void step();
 
   [[nodiscard]] double time() const;  // s
