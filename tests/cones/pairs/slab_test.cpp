@@ -18,6 +18,7 @@ namespace vericone::testing {
 namespace {
 
 using Eigen::Matrix3d, Eigen::Vector3d;
+using exact::Rational;
 
 constexpr double kEver = std::numeric_limits<double>::infinity();
 const Vector3d kStill = Vector3d::Zero();
