@@ -244,7 +244,8 @@ TEST(Slabs, PartsHoldTheirSidesWhateverTheNormal) {
     };
     Rational highest = -1000000, lowest = 1000000;
     int in_front = 0, behind = 0;
-    for (const Eigen::Vector3d& corner : clipped(slab, {1, 2, 3}, kExtent).points()) {
+    const HullBody part = clipped(slab, {1, 2, 3}, kExtent);
+    for (const Eigen::Vector3d& corner : part.points()) {
       const Rational over = side(corner, slab.high);
       highest = std::max(highest, over);
       in_front += over >= 0;
