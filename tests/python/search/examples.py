@@ -93,6 +93,7 @@ def cones(ask: Ask) -> None:
     oracle, sectors = v.ConeOracle(BALL, LONG), v.SectorOracle(DISC, FLAT)
     pair, w, still, up = v.Pair(BALL, LONG), [1, 0.1, 0.2], [0, 0, 0], [0, 0, 1]
     ask("ConeOracle.membership", oracle, w)
+    ask("ConeOracle.verdict", oracle, w, still, v.Horizon(until=9))
     ask("SectorOracle.membership", sectors, [1, 0.1])
     for name in ("membership", "verdict"):
         ask(f"ConeOracle.{name}", oracle, w, still)
