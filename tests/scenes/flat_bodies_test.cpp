@@ -379,7 +379,7 @@ TEST(FlatBodies, InSpaceAreRefused) {
   EXPECT_EQ(field("agent: " + polygon + "\nobstacle: {center: [9, 0, 0], semi_axes: [1, 1, 1]}"),
             "agent.polygon");
   EXPECT_EQ(field("agent: {box: {half_widths: [1, 1, 1]}}\nobstacle: " + polygon), "obstacle.polygon");
-  EXPECT_EQ(field("agent: " + polygon + "\nobstacle: {pieces: [" + polygon + "]}"), "agent.polygon");
+  EXPECT_EQ(field("agent: " + polygon + "\nobstacle: {pieces: [" + polygon + "]}"), "");  // in the plane
   EXPECT_EQ(field("agent: {center: [9, 0, 0], semi_axes: [1, 1, 1]}\nobstacle: {pieces: [" + polygon + "]}"),
             "obstacle.pieces[0].polygon");
   EXPECT_EQ(field("agent: {stadium: {radius: 0, length: 1}}\nobstacle: " + polygon), "agent.stadium.radius");
