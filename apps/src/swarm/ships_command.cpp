@@ -127,9 +127,13 @@ std::string text_of(const Json& summary, const Voyage& voyage) {
     return summary[key].is_null() ? std::string("-") : number_text(summary[key].get<double>(), 4);
   };
   const auto count = [&](const char* key) { return std::to_string(summary[key].get<std::uint64_t>()); };
+  const bool all_kept = summary["pairs_kept"] == voyage.pairs.size();
   out << "ships     " << summary["start"].get<std::string>() << ", " << count("ships") << " ships\n"
-      << "domains   " << count("pairs_kept") << " of " << voyage.pairs.size()
-      << " pairs kept, no hull nearer to a domain than " << number("least_domain_distance") << " m: proved\n";
+      << "domains   " << count("pairs_kept") << " of " << voyage.pairs.size() << " pairs kept"
+      << (summary["least_domain_distance"].is_null()
+              ? std::string("\n")
+              : std::string(all_kept ? ", " : "; of these ") + "no hull nearer to a domain than " +
+                    number("least_domain_distance") + " m: proved\n");
   for (const PairOfShips& pair : voyage.pairs)
     out << "          " << pair.a << " and " << pair.b << ": "
         << (pair.encounter == Encounter::none ? std::string("no risk") : to_string(pair.encounter)) << ", "
