@@ -70,8 +70,10 @@ Start start_for(SwarmCommand& command) {
   if (is_named(command.start)) return start_of(command.start, agents, command.seed);
   const bool room = command.start == "room";
   if (!room && !std::filesystem::exists(command.start))
-    throw InputError("start", command.start,
-                     "circle, sphere, crossing, gap, forest, slender, turning, room or a scenario's file");
+    throw InputError(
+        "start", command.start,
+        "circle, sphere, crossing, gap, forest, slender, turning, room, imazu-01 to imazu-22, harbour or a "
+        "scenario's file");
   const simulation::Scenario scenario =
       room ? scenario::scenario_of_text(kRoom, "room") : scenario::read_scenario(command.start);
   Start start = start_of(scenario);
@@ -255,7 +257,7 @@ int swarm_command(CommandLine& line) {
   swarm::SwarmCommand swarm;
   line.option("start", swarm.start,
               "circle, sphere, crossing, gap, forest, slender, turning, room, a scenario's file "
-              "(docs/explanation/swarms.md); imazu-01 to imazu-22 or the harbour (docs/explanation/ships.md)")
+              "(docs/explanation/swarms.md); imazu-01 to imazu-22 or harbour (docs/explanation/ships.md)")
       .required();
   line.option("-N,--agents", swarm.agents, "Agents, 0: as many as the measured tables have, or the scenario");
   line.option("--seed", swarm.seed, "Seed of all random numbers");
