@@ -97,8 +97,7 @@ class Swarms(unittest.TestCase):
     def test_refuses_in_one_line(self):
         for words, line in (
                 (["square"], "start: got square, must be circle, sphere, crossing, gap, forest, slender, turning, room, "
-                 "imazu-01 to imazu-22, harbour or a "
-                             "scenario's file"),
+                             "imazu-01 to imazu-22, harbour or a scenario's file"),
                 (["circle", "-N", "3", "--step", "1e9"], "--duration: got 600, must be at least a step (seconds)"),
                 (["circle", "--method", "rvo"], "--method: got rvo, must be proved or orca"),
                 (["circle", "-N", "2000000"], "--agents: got 2000000, must be 1 to 1000000"),
