@@ -100,7 +100,7 @@ void row_of_errors(int cases, std::ofstream* file) {
     const RobustVerdict verdict = robust_verdict(pair, w, Vector3d::Zero(), errors).verdict;
     if (verdict == RobustVerdict::undecided) continue;
     note(
-        table, to_string(verdict), [&] { return certificate(pair, w, Vector3d::Zero(), errors); }, file);
+        table, to_string(verdict), [&] { return pair.certificate(w, Vector3d::Zero(), errors); }, file);
   }
   print("an ellipsoid, with errors", table);
 }
@@ -119,7 +119,7 @@ void row(const char* name, int cases, const std::function<Placed(RandomBodies&)>
     const Pair pair(agent, other);
     const Verdict verdict = pair.verdict(w, Vector3d::Zero());
     note(
-        table, to_string(verdict), [&] { return certificate(pair, w, Vector3d::Zero()); }, file);
+        table, to_string(verdict), [&] { return pair.certificate(w, Vector3d::Zero()); }, file);
   }
   print(name, table);
 }

@@ -14,8 +14,9 @@ int64_t vericone_pair_certificate(const vericone_pair* pair, const double agent_
                                   size_t capacity) {
   return answered([&] {
     const Certificate found =
-        certificate(given(pair, "pair").pair, vector(agent_velocity, "agent_velocity"),
-                    vector(obstacle_velocity, "obstacle_velocity"), Horizon{from, until});
+        given(pair, "pair")
+            .pair.certificate(vector(agent_velocity, "agent_velocity"),
+                              vector(obstacle_velocity, "obstacle_velocity"), Horizon{from, until});
     if (capacity > 0) given(text, "text");
     const std::string& told = found.text.empty() ? found.reason : found.text;
     if (capacity > 0) text[told.copy(text, capacity - 1)] = '\0';

@@ -36,7 +36,7 @@ using c_test::expect_same;  // beside those below
 constexpr int kVelocities = 2;
 
 void expect_same_certificate(const Pair& cpp, const vericone_pair* c, const Vector3d& v, const Vector3d& u) {
-  const Certificate expected = certificate(cpp, v, u, {0, 2});
+  const Certificate expected = cpp.certificate(v, u, {0, 2});
   const std::string& told = expected.text.empty() ? expected.reason : expected.text;
   const auto ask = [&](char* text, std::size_t capacity) {
     return vericone_pair_certificate(c, v.data(), u.data(), 0, 2, text, capacity);

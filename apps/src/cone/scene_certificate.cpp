@@ -9,7 +9,7 @@ namespace vericone {
 
 void add_scene_certificate(Json& result, const scenes::Scene& scene, const std::string& id) {
   const Certificate proved =
-      certificate(scene.pair(), scene.agent.velocity, scene.obstacle.velocity, Horizon{}, id);
+      scene.pair().certificate(scene.agent.velocity, scene.obstacle.velocity, Horizon{}, id);
   result["certificate"] = proved.text.empty() ? Json(nullptr) : Json::parse(proved.text);
   if (proved.text.empty()) result["no_certificate"] = proved.reason;
 }

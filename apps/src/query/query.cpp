@@ -48,7 +48,7 @@ void add_certificate(Json& result, const Json& value, const scenes::Scene& scene
   const Pair pair = scene.pair();
   const Eigen::Vector3d &v_a = scene.agent.velocity, &v_b = scene.obstacle.velocity;
   const Certificate proved =
-      errors ? certificate(pair, v_a, v_b, *errors, name) : certificate(pair, v_a, v_b, horizon, name);
+      errors ? pair.certificate(v_a, v_b, *errors, name) : pair.certificate(v_a, v_b, horizon, name);
   result["certificate"] = proved.text.empty() ? Json(nullptr) : Json::parse(proved.text);
   if (proved.text.empty()) result["no_certificate"] = proved.reason;
 }

@@ -137,7 +137,7 @@ void expect_right(const Case& c, Verdict verdict, const std::string& text) {
 void expect_certificate(const Case& c) {
   const Pair pair = c.pair();
   const Verdict verdict = pair.verdict(c.v_a, c.v_b, c.horizon);
-  const Certificate found = certificate(pair, c.v_a, c.v_b, c.horizon, "\"it\"");
+  const Certificate found = pair.certificate(c.v_a, c.v_b, c.horizon, "\"it\"");
   ASSERT_FALSE(found.text.empty()) << to_string(verdict) << ": " << found.reason;
   EXPECT_TRUE(found.reason.empty());
   EXPECT_NE(found.text.find("\"says\": \"" + std::string(to_string(verdict)) + "\", \"id\": \"it\""),
@@ -219,7 +219,7 @@ TEST(Certificates, OfEveryTwoKindsSayTheVerdict) {
         const Vector3d v_b = random.in_box(1), v_a = v_b + pair.obstacle().pose.position + random.in_box(4);
         const Horizon horizon = any_horizon(random);
         const Verdict verdict = pair.verdict(v_a, v_b, horizon);
-        const Certificate found = certificate(pair, v_a, v_b, horizon);
+        const Certificate found = pair.certificate(v_a, v_b, horizon);
         const bool dents = agent == BodyKind::combined || obstacle == BodyKind::combined ||
                            agent == BodyKind::pieces || obstacle == BodyKind::pieces;
         of_dents += dents;
@@ -251,7 +251,7 @@ TEST(Certificates, OfErrorsSayWhatAllOfThemLeadTo) {
     if (random.coin()) errors.velocity = ErrorSet::ball(0.1 * size);
     if (random.coin()) errors.horizon = random.integer(1, 40) / 4.0;
     const RobustVerdict verdict = robust_verdict(pair, v_a, v_b, errors).verdict;
-    const Certificate found = certificate(pair, v_a, v_b, errors, "3");
+    const Certificate found = pair.certificate(v_a, v_b, errors, "3");
     ++seen[static_cast<int>(verdict)];
     if (verdict == RobustVerdict::undecided) continue;
     EXPECT_NE(found.text.find("\"says\": \"" + std::string(to_string(verdict)) + "\", \"id\": 3"),
@@ -269,7 +269,7 @@ TEST(Certificates, OfErrorsThatTheFormatHasNot) {
     RelativeErrors errors;
     errors.horizon = 3;
     change(errors);
-    return certificate(pair, Vector3d(1, 0, 0), Vector3d::Zero(), errors);
+    return pair.certificate(Vector3d(1, 0, 0), Vector3d::Zero(), errors);
   };
   EXPECT_EQ(with([](auto& e) { e.size = 0.1; }).reason, "the format has no errors of size");
   EXPECT_EQ(with([](auto& e) { e.attitude_b = 0.1; }).reason, "the format has no errors of attitude");
@@ -280,12 +280,12 @@ TEST(Certificates, OfErrorsThatTheFormatHasNot) {
             "the errors are no ball, ellipsoid or box along the axes, but a sum of some");
   EXPECT_TRUE(with([](auto& e) { e.size = 0.1; }).text.empty());
   // No error at all: the certificate of the verdict.
-  EXPECT_EQ(with([](auto&) {}).text, certificate(pair, Vector3d(1, 0, 0), Vector3d::Zero(), {0, 3}).text);
+  EXPECT_EQ(with([](auto&) {}).text, pair.certificate(Vector3d(1, 0, 0), Vector3d::Zero(), {0, 3}).text);
 }
 
 TEST(Certificates, BadVelocitiesAreRefused) {
   const Pair pair(Placed(Ellipsoid{}), Placed(Ellipsoid{}.translated({4, 0, 0})));
-  EXPECT_THROW(static_cast<void>(certificate(pair, Vector3d(NAN, 0, 0), Vector3d::Zero())), std::exception);
+  EXPECT_THROW(static_cast<void>(pair.certificate(Vector3d(NAN, 0, 0), Vector3d::Zero())), std::exception);
 }
 
 }  // namespace

@@ -60,34 +60,33 @@ const char* unstated(const RelativeErrors& errors, const StatedErrors& position,
 }  // namespace
 }  // namespace certificates
 
-Certificate certificate(const Pair& pair, const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b,
-                        const Horizon& horizon, const std::string& id) {
+Certificate Pair::certificate(const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b, const Horizon& horizon,
+                              const std::string& id) const {
   using namespace certificates;
-  const Verdict verdict = pair.verdict(v_a, v_b, horizon);
-  if (verdict == Verdict::undecided) return {{}, "the verdict is undecided"};
-  const Stated agent(pair.agent()), obstacle(pair.obstacle());
-  const bool now = is_now(verdict);
+  const Verdict said = verdict(v_a, v_b, horizon);
+  if (said == Verdict::undecided) return {{}, "the verdict is undecided"};
+  const Stated a(agent()), b(obstacle());
+  const bool now = is_now(said);
   const Eigen::Vector3d still = Eigen::Vector3d::Zero();
-  const Question question{agent, obstacle, now ? still : v_a, now ? still : v_b,
-                          now ? Horizon{0, 0} : horizon};
+  const Question question{a, b, now ? still : v_a, now ? still : v_b, now ? Horizon{0, 0} : horizon};
   Text proof;
   std::string reason;
-  if (!prove(question, verdict, proof, reason)) return {{}, reason};
-  return {statement(word_of(verdict), id, question, now ? std::nullopt : std::optional(horizon), {},
-                    proof.take()),
-          {}};
+  if (!prove(question, said, proof, reason)) return {{}, reason};
+  return {
+      statement(word_of(said), id, question, now ? std::nullopt : std::optional(horizon), {}, proof.take()),
+      {}};
 }
 
-Certificate certificate(const Pair& pair, const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b,
-                        const RelativeErrors& errors, const std::string& id) {
+Certificate Pair::certificate(const Eigen::Vector3d& v_a, const Eigen::Vector3d& v_b,
+                              const RelativeErrors& errors, const std::string& id) const {
   using namespace certificates;
-  const RobustAnswer answer = robust_verdict(pair, v_a, v_b, errors);
+  const RobustAnswer answer = robust_verdict(*this, v_a, v_b, errors);
   const StatedErrors position(errors.position), velocity(errors.velocity);
   if (const char* reason = unstated(errors, position, velocity)) return {{}, reason};
   const Horizon horizon{0, errors.horizon};
-  if (position.none() && velocity.none()) return certificate(pair, v_a, v_b, horizon, id);
-  const Stated agent(pair.agent()), obstacle(pair.obstacle());
-  const UncertainQuestion question{agent, obstacle, v_a, v_b, position, velocity, errors.horizon};
+  if (position.none() && velocity.none()) return certificate(v_a, v_b, horizon, id);
+  const Stated a(agent()), b(obstacle());
+  const UncertainQuestion question{a, b, v_a, v_b, position, velocity, errors.horizon};
   Text proof, more;
   bool proved = false;
   switch (answer.verdict) {
@@ -98,7 +97,7 @@ Certificate certificate(const Pair& pair, const Eigen::Vector3d& v_a, const Eige
       proved = prove_all_in(question, proof);
       break;
     case RobustVerdict::depends:
-      proved = prove_depends(question, pair, answer.collides, answer.passes, proof);
+      proved = prove_depends(question, *this, answer.collides, answer.passes, proof);
       break;
     case RobustVerdict::undecided:
       return {{}, "what the errors lead to is undecided"};
@@ -106,7 +105,7 @@ Certificate certificate(const Pair& pair, const Eigen::Vector3d& v_a, const Eige
   if (!proved) return {{}, "no short proof was found"};
   if (!position.none()) position.write(more.raw(", \"position_error\": "));
   if (!velocity.none()) velocity.write(more.raw(", \"velocity_error\": "));
-  const Question stated{agent, obstacle, v_a, v_b, horizon};
+  const Question stated{a, b, v_a, v_b, horizon};
   return {statement(to_string(answer.verdict), id, stated, horizon, more.take(), proof.take()), {}};
 }
 
