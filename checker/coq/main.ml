@@ -60,9 +60,9 @@ let say_run (c : C.run_claim) =
 let told accepted words =
   if accepted then ("accepted: " ^ words, 0) else ("refused, the proof does not hold: " ^ words, 1)
 
-let answer folder line =
+let answer line =
   match
-    match Reader.statement folder (Json.parse line) with
+    match Reader.statement (Json.parse line) with
     | Reader.Verdict (says, claim, proof) -> let proof = proof () in told (C.check claim proof) (say_verdict says claim)
     | Reader.Robust (d, k, positions, velocities, proof) ->
       let proof = proof () in
@@ -91,9 +91,9 @@ let cost text =
   let count found c = match c with '{' -> found + 200 | ',' -> found + 120 | '[' -> found + 100 | _ -> found in
   String.fold_left count (16 * String.length text) text
 
-let told_of folder memory text =
+let told_of memory text =
   if cost text > memory then (Printf.sprintf "no certificate: %d bytes of memory needed, %d allowed (--memory)" (cost text) memory, 2)
-  else answer folder text
+  else answer text
 
 (* A line, cut off after `most` bytes; None at the end. *)
 let next_line channel most =
@@ -129,12 +129,11 @@ let each channel memory judge =
     if is_whole memory all || cost all > memory then judge all
     else List.iter (fun line -> if String.trim line <> "" then judge line) (String.split_on_char '\n' all)
 
-let check_file folder memory name =
+let check_file memory name =
   let statuses = ref [] and seen = ref 0 in
-  let folder = match folder with Some f -> f | None -> Filename.dirname name in
   let judge text =
     incr seen;
-    let words, status = told_of folder memory text in
+    let words, status = told_of memory text in
     Printf.printf "%s: %d: %s\n" name !seen words;
     statuses := status :: !statuses in
   let complain words =
@@ -151,20 +150,19 @@ let check_file folder memory name =
    | exception Sys_error words -> complain words);
   !statuses
 
-let usage = "vericone-check [--bodies DIR] [--memory MB] FILE...: checks certificates (- is the standard input).\n\
+let usage = "vericone-check [--memory MB] FILE...: checks certificates (- is the standard input).\n\
              Exit status: 0 all are accepted, 1 one is refused, 2 one is no certificate or unknown to this checker."
 
 let () =
-  let rec options folder memory files = function
-    | "--bodies" :: dir :: rest -> options (Some dir) memory files rest
+  let rec options memory files = function
     | "--memory" :: megabytes :: rest ->
       (match int_of_string_opt megabytes with
-       | Some m when m > 0 && m < 1_000_000 -> options folder (m * 1_000_000) files rest
+       | Some m when m > 0 && m < 1_000_000 -> options (m * 1_000_000) files rest
        | _ -> prerr_endline usage; exit 2)
     | ("--help" | "-h") :: _ -> print_endline usage; exit 0
-    | name :: rest -> options folder memory (name :: files) rest
-    | [] -> (folder, memory, List.rev files) in
-  let folder, memory, files = options None 180_000_000 [] (List.tl (Array.to_list Sys.argv)) in
+    | name :: rest -> options memory (name :: files) rest
+    | [] -> (memory, List.rev files) in
+  let memory, files = options 180_000_000 [] (List.tl (Array.to_list Sys.argv)) in
   if files = [] then begin prerr_endline usage; exit 2 end;
-  let statuses = List.concat_map (check_file folder memory) files in
+  let statuses = List.concat_map (check_file memory) files in
   exit (if List.mem 1 statuses then 1 else List.fold_left max 0 statuses)

@@ -54,7 +54,6 @@ let items ?(least = 1) = function
 
 let vector value = match items value with
   | [x; y; z] -> { C.vx = number x; vy = number y; vz = number z }
-  | [_; _] -> unknown "bodies in the plane"
   | _ -> malformed "a vector is a list of three numbers"
 let map_vector f (v : 'a C.vec) = { C.vx = f v.C.vx; vy = f v.C.vy; vz = f v.C.vz }
 let rational_vector v = map_vector rational v
@@ -65,7 +64,6 @@ let origin = { C.vx = Q.zero; vy = Q.zero; vz = Q.zero }
 
 let matrix value = match items value with
   | [a; b; c] -> C.{ r1 = vector a; r2 = vector b; r3 = vector c }
-  | [_; _] -> unknown "bodies in the plane"
   | _ -> malformed "a matrix is a list of three rows"
 let rational_matrix (m : Q.t C.mat) = C.{ r1 = rational_vector m.r1; r2 = rational_vector m.r2; r3 = rational_vector m.r3 }
 
@@ -89,30 +87,39 @@ let kind_of what = function
 let body_fields = [
   ("ellipsoid", ([], ["factor"; "shape"])); ("ball", (["center"; "radius"], [])); ("hull", (["points"], []));
   ("box", (["low"; "high"], [])); ("delimited", (["delimiters"], ["factor"; "shape"])); ("mesh", (["points"; "triangles"], [])); ("cloud", (["points"; "radius"], []));
-  ("boxes", (["boxes"], [])); ("union", (["pieces"], [])); ("file", (["name"; "sha256"], [])) ]
+  ("boxes", (["boxes"], [])); ("union", (["pieces"], [])); ("octree", (["low"; "cell"; "depth"; "tree"], [])) ]
 
 let coordinates value = (* of meshes, clouds and boxes *)
   List.iter (function Number _ -> () | _ -> malformed "coordinates are JSON numbers here") (items value);
   vector value
 
-(* The bytes whose digest was taken are those that are read. *)
-let from_file folder name digest =
-  form (name <> "" && String.for_all (fun c -> c <> '/' && c <> '\\' && c <> '\000') name) "a file's name with a slash";
-  form (String.length digest = 64) "sha256 must be 64 digits";
-  let path = Filename.concat folder name in
-  form (Sys.file_exists path && not (Sys.is_directory path)) ("there is no file " ^ path);
-  let channel = open_in_bin path in
-  form (in_channel_length channel <= 50_000_000) (name ^ " is too large");
-  let bytes = Fun.protect ~finally:(fun () -> close_in channel)
-      (fun () -> really_input_string channel (in_channel_length channel)) in
-  form (Sha256.hex bytes = String.lowercase_ascii digest) ("the SHA-256 of " ^ name ^ " is another");
-  parse bytes
+(* The boxes of an octree: a node is eight characters, of its cell's eighths; the nodes of its `+` follow it. *)
+let cells low cell depth tree =
+  let next = ref 0 and found = ref [] in
+  let corner (at : Q.t C.vec) edge bits =
+    let along bit x = if bits land bit <> 0 then Q.add x edge else x in
+    { C.vx = along 1 at.C.vx; vy = along 2 at.C.vy; vz = along 4 at.C.vz } in
+  let rec node low edge below = (* `below`: how many times its cells may be divided *)
+    form (below >= 0 && !next + 8 <= String.length tree) "each + has a node, and none has cells below the smallest";
+    let first = !next in
+    next := first + 8;
+    for bits = 0 to 7 do
+      let at = corner low edge bits in
+      match tree.[first + bits] with
+      | '+' -> node at (Q.div_2exp edge 1) (below - 1)
+      | '#' -> found := (at, corner at edge 7) :: !found
+      | '.' -> ()
+      | _ -> malformed "nodes are eight of .#+ each"
+    done in
+  node low (Q.mul_2exp cell depth) depth;
+  form (!found <> [] && !next = String.length tree) "an octree has cells, and no node too many";
+  List.rev !found
 
-let rec body folder ~moves ~inner value : (C.q C.body * (string * t) list) =
+let rec body ~moves ~inner value : (C.q C.body * (string * t) list) =
   let kind = kind_of "a body" value in
   let needed, allowed = match List.assoc_opt kind body_fields with
     | Some known -> known
-    | None when List.mem kind ["octree"; "quadrics"; "convex"; "wall"] -> unknown ("the kind " ^ kind)
+    | None when List.mem kind ["quadrics"; "convex"; "wall"] -> unknown ("the kind " ^ kind)
     | None -> malformed ("an unknown kind of body: " ^ kind) in
   let read = fields ("the " ^ kind) (("kind" :: needed) @ (if moves then ["velocity"] else [])) ("center" :: allowed) value in
   let p = match optional "center" read with Some c -> vector c | None -> origin in
@@ -146,15 +153,13 @@ let rec body folder ~moves ~inner value : (C.q C.body * (string * t) list) =
         let kind = kind_of "a piece" value in
         if List.mem kind ["quadrics"; "convex"] then unknown ("the kind " ^ kind);
         form (List.mem (kind_of "a piece" value) ["ellipsoid"; "ball"; "hull"; "box"; "delimited"]) "a piece of a union of another kind";
-        List.map (moved p) (fst (body folder ~moves:false ~inner:true value)) in
+        List.map (moved p) (fst (body ~moves:false ~inner:true value)) in
       List.concat_map part (items (field "pieces" read))
     | _ ->
-      form (not inner) "a file in a file";
-      List.map (moved p)
-        (fst (body folder ~moves:false ~inner:false
-                (match from_file folder (text "name" read) (text "sha256" read) with
-                 | Object members as o -> form (List.assoc_opt "kind" members <> Some (Text "file")) "a file in a file"; o
-                 | other -> other))) in
+      let cell = number (field "cell" read) in
+      form (Q.sign cell > 0) "cells have an edge above 0";
+      List.map (fun (low, high) -> C.Box (at low, at high))
+        (cells (vector (field "low" read)) cell (index 64 (field "depth" read)) (text "tree" read)) in
   (pieces, read)
 
 and ellipsoid p read = match optional "factor" read, optional "shape" read with
@@ -228,6 +233,9 @@ let normal sides read = match optional "n" read, optional "across_w" read with
   | _ -> malformed "a plane has either n or across_w"
 let multipliers who read = Option.map numbers (optional (who ^ "_multipliers") read)
 
+let of_agent read = match text "of" read with
+  | "agent" -> true | "obstacle" -> false | _ -> malformed "`of` is the agent or the obstacle"
+
 let rec proof sides value : C.proof =
   let rule = match value with
     | Object m -> (match List.assoc_opt "rule" m with Some (Text t) -> t | _ -> malformed "a proof must have a rule")
@@ -264,9 +272,7 @@ let rec proof sides value : C.proof =
              piece_of sides.agent_pieces "agent_piece" read, piece_of sides.obstacle_pieces "obstacle_piece" read)
   | "groups" ->
     let read = read ["of"; "runs"; "proofs"] [] in
-    let of_agent = match text "of" read with
-      | "agent" -> true | "obstacle" -> false | _ -> malformed "groups are of the agent or of the obstacle" in
-    C.Groups (of_agent, runs (field "runs" read), List.map (proof sides) (items (field "proofs" read)))
+    C.Groups (of_agent read, runs (field "runs" read), List.map (proof sides) (items (field "proofs" read)))
   | "times" ->
     let read = read ["cuts"; "proofs"] [] in
     let cuts = items (field "cuts" read) and proofs = items (field "proofs" read) in
@@ -342,9 +348,7 @@ let rec error_proof sides sets value : C.error_proof =
                 least "position_error", least "velocity_error", multipliers "agent" read, multipliers "obstacle" read)
   | Object m when List.assoc_opt "rule" m = Some (Text "groups") ->
     let read = fields "the rule groups" ["rule"; "of"; "runs"; "proofs"] [] value in
-    let of_agent = match text "of" read with
-      | "agent" -> true | "obstacle" -> false | _ -> malformed "groups are of the agent or of the obstacle" in
-    C.GroupsFor (of_agent, runs (field "runs" read), List.map (error_proof sides sets) (items (field "proofs" read)))
+    C.GroupsFor (of_agent read, runs (field "runs" read), List.map (error_proof sides sets) (items (field "proofs" read)))
   | Object m when List.assoc_opt "rule" m = Some (Text "times") ->
     let read = fields "the rule times" ["rule"; "cuts"; "proofs"] [] value in
     let cuts = numbers (field "cuts" read) and proofs = items (field "proofs" read) in
@@ -354,7 +358,7 @@ let rec error_proof sides sets value : C.error_proof =
     raise (Refused "plane, groups and times are the rules where there are errors")
   | _ -> malformed "a proof must have a rule"
 
-let verdict folder says claim proof_read =
+let verdict says claim proof_read =
   let moves = List.mem says ["out"; "in"; "on"] in
   let errors = ["position_error"; "velocity_error"] in
   let read = fields "the claim" (["says"; "agent"; "obstacle"] @ (if moves then ["horizon"] else []))
@@ -362,8 +366,8 @@ let verdict folder says claim proof_read =
   let sets = List.filter (fun name -> List.mem_assoc name read) errors in
   if sets <> [] && says = "in" then unknown "in for all errors";
   identity read;
-  let agent, a = body folder ~moves ~inner:false (field "agent" read) in
-  let obstacle, b = body folder ~moves ~inner:false (field "obstacle" read) in
+  let agent, a = body ~moves ~inner:false (field "agent" read) in
+  let obstacle, b = body ~moves ~inner:false (field "obstacle" read) in
   let velocity its = if moves then vector (field "velocity" its) else origin in
   let v_a = velocity a and v_b = velocity b in
   let from, until = if moves then horizon (field "horizon" read) else (Q.zero, Some Q.zero) in
@@ -432,25 +436,33 @@ let rec run_proof value : C.run_proof =
     C.Pieces (rational (List.hd times), List.combine (List.map rational (List.tl times)) planes)
   | "groups" ->
     let read = fields "the rule groups" ["rule"; "of"; "runs"; "proofs"] [] value in
-    let of_agent = match text "of" read with
-      | "agent" -> true | "obstacle" -> false | _ -> malformed "groups are of the agent or of the obstacle" in
-    C.PiecesOf (of_agent, runs (field "runs" read), List.map run_proof (items (field "proofs" read)))
-  | "cover" -> unknown "the rule cover"
+    C.PiecesOf (of_agent read, runs (field "runs" read), List.map run_proof (items (field "proofs" read)))
+  | "times" ->
+    let read = fields "the rule times" ["rule"; "cuts"; "proofs"] [] value in
+    let cuts = numbers (field "cuts" read) and proofs = items (field "proofs" read) in
+    form (List.length proofs = List.length cuts + 1) "times have one proof more than cuts";
+    C.PartsOfTime (cuts, List.map run_proof proofs)
+  | "cover" ->
+    let read = fields "the rule cover" ["rule"; "of"; "boxes"; "runs"; "proof"] [] value in
+    let box ends = match items ends with
+      | [low; high] -> (vector_of low, vector_of high)
+      | _ -> malformed "a box has two ends" in
+    C.Covered (of_agent read, List.map box (items (field "boxes" read)), runs (field "runs" read), run_proof (field "proof" read))
   | _ -> raise (Refused (rule ^ " is a rule for apart"))
 
 (* The bodies on their tracks. *)
-let runners folder read =
+let runners read =
   identity read;
-  let bodies = List.map (fun b -> fst (body folder ~moves:false ~inner:false b)) (items (field "bodies" read)) in
+  let bodies = List.map (fun b -> fst (body ~moves:false ~inner:false b)) (items (field "bodies" read)) in
   form (List.for_all C.filled bodies) "a box with low > high, or a shape that is not symmetric and positive definite";
   let tracks = List.map track (items (field "tracks" read)) in
   let count = List.length bodies in
   form (List.length tracks = count) "each body has a track";
   List.map2 (fun its_body (track, radius) -> { C.its_body; track; radius }) bodies tracks
 
-let run folder claim proof_read =
+let run claim proof_read =
   let read = fields "the claim" ["says"; "from"; "to"; "bodies"; "tracks"; "by"; "pairs"] ["id"] claim in
-  let runners = runners folder read in
+  let runners = runners read in
   let count = List.length runners in
   let pair value = match items value with
     | [i; j] ->
@@ -474,9 +486,9 @@ let run folder claim proof_read =
     List.map (fun name -> run_proof (field name proofs)) names in
   Run (claim, proofs)
 
-let meeting folder claim proof_read =
+let meeting claim proof_read =
   let read = fields "the claim" ["says"; "from"; "to"; "bodies"; "tracks"; "pair"] ["id"] claim in
-  let all = Array.of_list (runners folder read) in
+  let all = Array.of_list (runners read) in
   let i, j = match items (field "pair" read) with
     | [i; j] -> (index (Array.length all) i, index (Array.length all) j)
     | _ -> malformed "a pair has two indices" in
@@ -502,21 +514,19 @@ let rec fit_proof pieces value : C.fit_proof =
     C.Vertices (piece_of pieces "obstacle_piece" (fields "the rule vertices" ["rule"] ["obstacle_piece"] value))
   | Object m when List.assoc_opt "rule" m = Some (Text "groups") ->
     let read = fields "the rule groups" ["rule"; "of"; "runs"; "proofs"] [] value in
-    let of_agent = match text "of" read with
-      | "agent" -> true | "obstacle" -> false | _ -> malformed "groups are of the agent or of the obstacle" in
-    C.Parts (of_agent, runs (field "runs" read), List.map (fit_proof pieces) (items (field "proofs" read)))
+    C.Parts (of_agent read, runs (field "runs" read), List.map (fit_proof pieces) (items (field "proofs" read)))
   | Object m when (match List.assoc_opt "rule" m with Some (Text _) -> true | _ -> false) -> raise (Refused "no rule for inside")
   | _ -> malformed "a proof must have a rule"
 
-let fit folder claim proof_read =
+let fit claim proof_read =
   let read = fields "the claim" ["says"; "agent"; "obstacle"] ["id"] claim in
   identity read;
-  let one name = fst (body folder ~moves:false ~inner:false (field name read)) in
+  let one name = fst (body ~moves:false ~inner:false (field name read)) in
   let agent = one "agent" and obstacle = one "obstacle" in
   form (C.filled agent && C.filled obstacle) "a box with low > high, or a matrix that is not as it must be";
   Fit (agent, obstacle, fun () -> fit_proof (List.length obstacle) proof_read)
 
-let statement folder value =
+let statement value =
   let answer, value = match value with
     | Object members when List.mem_assoc "certificate" members && not (List.mem_assoc "format" members) ->
       (Some members, List.assoc "certificate" members)
@@ -529,10 +539,10 @@ let statement folder value =
     | Object members -> (match List.assoc_opt "says" members with Some (Text t) -> t | _ -> malformed "a claim must say something")
     | _ -> malformed "a claim is missing" in
   let found = match says with
-    | "out" | "in" | "on" | "disjoint" | "overlapping" | "touching" -> verdict folder says claim (field "proof" read)
-    | "apart" -> run folder claim (field "proof" read)
-    | "meet" -> meeting folder claim (field "proof" read)
-    | "inside" -> fit folder claim (field "proof" read)
+    | "out" | "in" | "on" | "disjoint" | "overlapping" | "touching" -> verdict says claim (field "proof" read)
+    | "apart" -> run claim (field "proof" read)
+    | "meet" -> meeting claim (field "proof" read)
+    | "inside" -> fit claim (field "proof" read)
     | "depends" | "near" | "passed" | "stays" -> unknown ("the claim " ^ says)
     | _ -> malformed ("an unknown claim: " ^ says) in
   (match answer with

@@ -35,13 +35,13 @@ sys.dont_write_bytecode = True
 spec.loader.exec_module(checker)
 
 
-def status(document, folder="."):
+def status(document):
     """(exit status, what is printed) of one certificate, an object or text."""
     data = document if isinstance(document, bytes) else (
         document if isinstance(document, str) else json.dumps(document)).encode()
     said = io.StringIO()
     with contextlib.redirect_stdout(said):
-        found = checker.checked(io.BytesIO(data), "test", checker.Reader(folder, 160 * 10 ** 6))
+        found = checker.checked(io.BytesIO(data), "test", 160 * 10 ** 6)
     return (1 if 1 in found else max(found)), said.getvalue()
 
 
@@ -91,14 +91,14 @@ class Examples(unittest.TestCase):
 
     def test_what_is_printed_is_what_was_read(self):
         said = status(example("plane"))[1]
-        self.assertIn('out: no common point at any time of the horizon. {says "out", agent {kind "ellipsoid", '
-                      "velocity (10, 0, 0), factor ((3, 0, 0), (0, 1, 0), (0, 0, 1))}", said)
+        self.assertIn('out: no common point at any time of the horizon. {"says": "out", "id": "17", "horizon": null, "agent": '
+                      '{"kind": "ellipsoid", "factor": [[3, 0, 0], [0, 1, 0], [0, 0, 1]], "velocity": [10, 0, 0]}', said)
 
     def test_it_is_small_and_alone(self):
         text = PROGRAM.read_text(encoding="utf-8")
         self.assertNotIn("vericone.", re.sub(r"docs/\S+", "", text))
         self.assertLessEqual(set(re.findall(r"^(?:import|from) (\w+)", text, re.MULTILINE)), set(sys.stdlib_module_names))
-        self.assertLessEqual(max(map(len, text.splitlines())), 120)
+        self.assertLessEqual(max(map(len, text.splitlines())), 110)
 
     def test_the_schema_takes_them(self):
         schema = json.loads((ROOT / "checker/certificate.schema.json").read_text(encoding="utf-8"))
@@ -169,10 +169,10 @@ class FalseCertificates(unittest.TestCase):
         """2^53 + 1 is 2^53, so a proof for the one is none for the other."""
         document = example("plane", "disjoint")
         document["claim"].pop("by")
-        document["claim"]["obstacle"]["center"] = [2 ** 53 + 1, 0]
-        document["proof"] = {"rule": "plane", "n": [1, 0], "agent_at_most": 1, "obstacle_at_least": str(2 ** 53)}
+        document["claim"]["obstacle"]["center"] = [2 ** 53 + 1, 0, 0]
+        document["proof"] = {"rule": "plane", "n": [1, 0, 0], "agent_at_most": 1, "obstacle_at_least": str(2 ** 53)}
         self.assertEqual(status(document)[0], 1)
-        document["claim"]["obstacle"]["center"] = [str(2 ** 53 + 1), 0]
+        document["claim"]["obstacle"]["center"] = [str(2 ** 53 + 1), 0, 0]
         self.assertEqual(status(document)[0], 0)
         self.assertEqual(checker.number(checker.parsed("0.1")), Fraction(0.1))
 
@@ -294,24 +294,14 @@ class FalseCertificates(unittest.TestCase):
         document["claim"]["tracks"][0] = {"times": [0, 1.5, 2], "positions": [[[0, 0, 0]], [[0, -1, 0]]], "radius": 0}
         self.assertEqual(status(document)[0], 1)
 
-    def test_files_of_bodies(self):
-        with tempfile.TemporaryDirectory() as folder:
-            document = example("groups", "out")
-            mesh = document["claim"]["obstacle"]
-            velocity = mesh.pop("velocity")
-            data = json.dumps(mesh).encode()
-            (Path(folder) / "mesh.json").write_bytes(data)
-            body = {"kind": "file", "name": "mesh.json", "sha256": hashlib.sha256(data).hexdigest(), "velocity": velocity}
-            document["claim"]["obstacle"] = body
-            self.assertEqual(status(document, folder)[0], 0)
+    def test_all_of_it_stands_in_the_file_in_space(self):
+        document = example("groups", "out")
+        velocity = document["claim"]["obstacle"].pop("velocity")
+        data = json.dumps(document["claim"]["obstacle"]).encode()
+        for body in ({"kind": "file", "name": "mesh.json", "sha256": hashlib.sha256(data).hexdigest()},
+                     {"kind": "box", "low": [9, 9], "high": [10, 10]}, {"kind": "hull", "points": [[9, 9], [9, 9, 9]]}):
+            document["claim"]["obstacle"] = {**body, "velocity": velocity}
             self.assertEqual(status(document)[0], 2)
-            self.assertEqual(status(changed(document, ["claim", "obstacle", "center"], [0, -2, 0]), folder)[0], 1)
-            (Path(folder) / "mesh.json").write_bytes(data.replace(b"-2", b"-1"))
-            self.assertEqual(status(document, folder)[0], 1)
-            again = json.dumps(body).encode()
-            (Path(folder) / "mesh.json").write_bytes(again)
-            body["sha256"] = hashlib.sha256(again).hexdigest()
-            self.assertEqual(status(document, folder)[0], 2)
 
     def test_unions_touch_by_pieces(self):
         ball = {"kind": "ball", "radius": 1}
@@ -337,7 +327,7 @@ class FalseCertificates(unittest.TestCase):
 
 def made(count, first=0):
     """(certificate, statement) of random pairs, every seventh in the plane."""
-    found = [make.verdict(make.generator(seed), 2 if seed % 7 == 0 else 3) for seed in range(first, first + count)]
+    found = [make.verdict(make.generator(seed)) for seed in range(first, first + count)]
     return [one for one in found if one]
 
 

@@ -46,7 +46,7 @@ FALSE = [
     (CYLINDER, ["claim", "agent", "parts", 0, "shape"], [[1, 0, 0], [0, 1, 0], [0, 0, 1]]), (CYLINDER, ["proof", "agent_multipliers"], [1]),
     (CYLINDER, ["claim", "agent", "parts", 0], {"center": [0, 0, 0], "shape": [[1, 0, 0], [0, 1, 0], [0, 0, 0]]}),
     (CYLINDER, ["claim", "agent", "parts", 0, "factor"], [[1, 0], [0, 1]]), (CYLINDER, ["claim", "agent", "parts", 0, "margin"], 0),
-    (CYLINDER, ["claim", "agent", "parts", 0], []), (CYLINDER, ["proof"], {"rule": "plane", "n": [0, 1, 0]}),
+    (CYLINDER, ["claim", "agent", "parts", 0], []), (CYLINDER, ["proof"], {"rule": "plane", "n": [0, 1, 0], "agent_multipliers": [1]}),
     (DISC, ["proof", "inside"], "agent"), (DISC, ["proof", "inside"], "obstacle"), (DISC, ["proof", "time"], 4),
     (DISC, ["claim", "obstacle", "points", 0], [0, 0, 0]), (DISC, ["claim", "obstacle", "points", 1], [1, 0, 1]),
     (DISC, ["proof", "agent_weights"], [[0, "1/2"]]), (DISC, ["proof", "agent_weights"], [[0, 1, ["1/100", 0, 0]]]),

@@ -9,6 +9,7 @@ import re
 import shutil
 import struct
 import subprocess
+import sys
 import time
 from fractions import Fraction
 from pathlib import Path
@@ -195,6 +196,37 @@ def test_examples_of_the_page(check):
     print(f"\n{accepted} of {len(examples)} accepted; {unknown}")
     assert accepted >= 13
     assert accepted + len(unknown) == len(examples)
+
+
+def test_a_map_held_by_boxes(check, tmp_path):
+    """A ball on its way beside cells of an octree, which boxes stand for; a time in two parts. What is false is refused, by both."""
+    beside = {"rule": "groups", "of": "obstacle", "runs": [[0, 1], [1, 1]], "proofs": [
+        {"rule": "pieces", "times": [0, 1], "planes": [[n, 1, ["1/4"], [most]]]} for n, most in (([-1, 0, 0], 1), ([0, 0, 1], -1))]}
+    later = json.loads(json.dumps(beside).replace("[0, 1], \"planes\"", "[1, 2], \"planes\""))
+    good = {"format": "vericone-certificate", "version": 1, "claim": {
+        "says": "apart", "by": "1/2", "from": 0, "to": 2, "pairs": [[0, 1]],
+        "bodies": [{"kind": "ball", "center": [0, 0, 0], "radius": "1/4"},
+                   {"kind": "octree", "low": [0, 0, 0], "cell": "1/2", "depth": 1, "tree": "+....#.+####...........#"}],
+        "tracks": [{"times": [0, 2], "positions": [[[2, 1, 0], [2, 3, 0]]], "radius": "1/100"},
+                   {"times": [0, 2], "positions": [[[0, 0, 0]]], "radius": 0}]},
+        "proof": {"rule": "pairs", "pairs": {"0 1": {
+            "rule": "cover", "of": "obstacle", "boxes": [[[0, 0, 0], [1, 1, "1/2"]], [[1, 0, 1], [2, 2, 2]]], "runs": [[0, 4], [1, 2]],
+            "proof": {"rule": "times", "cuts": [1], "proofs": [beside, later]}}}}}
+    cover, tree = ("proof", "pairs", "0 1"), ("claim", "bodies", 1, "tree")
+    time_ = (*cover, "proof")
+    bad = [changed(good, path, value) for path, value in (
+        (("claim", "by"), 1), ((*cover, "runs"), [[0, 5], [1, 1]]), ((*cover, "runs"), [[0, 4]]), ((*cover, "runs"), [[0, 4], [1, 3]]),
+        ((*cover, "boxes", 0, 1, 2), "499/1000"), ((*cover, "boxes", 1, 0, 2), "501/500"), ((*cover, "boxes", 0, 1, 0), 2),
+        ((*cover, "boxes", 0, 0, 1), "1/1000"), ((*cover, "of"), "agent"), ((*time_, "cuts"), []), ((*time_, "cuts"), [0]), ((*time_, "cuts"), [2]),
+        ((*time_, "cuts"), ["1/2"]), ((*time_, "proofs"), [beside, beside]), ((*time_, "proofs"), [later, beside]), ((*time_, "proofs"), [beside]),
+        (tree, "+....#.+####...........#........"), (tree, "+....#.+####..........."), (tree, "........"), (tree, "+....#.+#+##...........#"),
+        (tree, "#....#.+####...........#"), (tree, "+....#.+#.##...........#"), (("claim", "bodies", 1, "depth"), 0), (("claim", "bodies", 1, "cell"), 0),
+        (("claim", "bodies", 1, "cell"), 1), (("claim", "bodies", 1, "low", 2), "1/1000"), (("claim", "tracks", 0, "radius"), 1))]
+    lines = [json.dumps(one) for one in (good, *bad)]
+    (tmp_path / "lines").write_text("\n".join(lines), encoding="utf-8")
+    python = subprocess.run([sys.executable, ROOT / "checker" / "vericone_check.py", tmp_path / "lines"], capture_output=True, text=True, check=False)
+    for said in (check(lines)[1], [line.split(": ", 2)[2] for line in python.stdout.splitlines()]):
+        assert [one.startswith("accepted: ") for one in said] == [True] + [False] * len(bad), said
 
 
 def test_noise_is_no_certificate(check):

@@ -31,9 +31,8 @@ def check_certificates(path):
     sys.path.insert(0, os.path.join(SOURCE, "checker"))
     import vericone_check  # pylint: disable=import-outside-toplevel
     del sys.path[0]
-    reader = vericone_check.Reader(os.path.dirname(path), 160 * 10 ** 6)  # as it has by itself
     with open(path, "rb") as stream, contextlib.redirect_stdout(io.StringIO()) as said:
-        statuses = vericone_check.checked(stream, path, reader)
+        statuses = vericone_check.checked(stream, path, 160 * 10 ** 6)  # as it has by itself
     return subprocess.CompletedProcess(path, 1 if 1 in statuses else max(statuses), said.getvalue(), "")
 
 
