@@ -168,9 +168,9 @@ VERICONE_API int64_t vericone_pair_certificate(const vericone_pair* pair, const 
                                                char* text, size_t capacity);
 
 typedef struct vericone_contact {
-  double earliest,
-      latest;       /* s from now; proved: nothing is touched before, and they touch or overlap at `latest` */
-  double time;      /* s, the best estimate; NaN where there is none */
+  double earliest, latest; /* s from now; proved: nothing is touched before `earliest`; they have touched by
+                              `latest`, where vericone_pair_verdict() is not undecided */
+  double time;             /* s, the best estimate; NaN where there is none */
   double point[3];  /* of the obstacle, rounded, in the world at that time; NaN where it is not known */
   double normal[3]; /* unit, from the agent towards the obstacle; NaN where it is not known */
 } vericone_contact;

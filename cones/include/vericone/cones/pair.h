@@ -44,8 +44,9 @@ struct Guarantee {
 
 /// The first contact.
 struct Contact {
-  /// Seconds from now. Nothing is touched before `earliest`; where verdict() is not `undecided` they touch or
-  /// overlap at `latest`. Both are proved.
+  /// Seconds from now. Nothing is touched before `earliest`; where verdict() is not `undecided` they have
+  /// touched by `latest` (bodies without thickness may be past each other then). Both are proved.
+  /// `latest` is infinite where no double is late enough, or none is known.
   double earliest = 0, latest = std::numeric_limits<double>::infinity();
   double time = 0;  // s, the best estimate; NaN where there is none
   /// Rounded, at that time, in the world: the point of the obstacle, and the unit normal from the agent
@@ -172,7 +173,8 @@ class Pair {
   }
 
   /// How deep they overlap as they stand: penetration() of penetration.h, of convex bodies without
-  /// delimiters. Nothing of others, and where they do not overlap.
+  /// delimiters. Nothing of others, and where relation() is not `overlapping`; nor of sizes and distances
+  /// outside 1e-120 m to 1e120 m.
   [[nodiscard]] std::optional<Penetration> penetration() const;
 
   /// What proves verdict() within a horizon, for programs that know nothing of this library (certificate.h).

@@ -18,12 +18,15 @@ struct Penetration {
 };
 
 /// Of two convex bodies without delimiters: ellipsoids, hulls, and convex bodies of flat, round and straight
-/// parts. Nothing where they do not overlap, as far as doubles tell, or are not such bodies. `least` is at
-/// most 1e-12 of the bodies' size below `most`, but where the shortest displacements are a continuum (two
-/// bodies of revolution about one axis): those end after 1,000 steps, with what is proved by then. An
+/// parts. Nothing where they do not overlap, as far as doubles tell (Pair::penetration() decides that), are
+/// not such bodies, or their sizes and distances are not within 1e-120 m to 1e120 m. `least` is at most 1e-12
+/// of the bodies' size below `most`, but where the shortest displacements are a continuum (two bodies of
+/// revolution about one axis), which end after 1,000 steps, and of some pairs with straight rulings (a
+/// capsule and a cone), whose faces all but degenerate: it is then what is proved by then, 0 at worst. An
 /// expanding polytope (G. van den Bergen, "Proximity queries and penetration depth computation on 3D game
 /// objects", 2001) of the difference of the bodies without their margins; its lower bound holds for any
-/// closed surface that goes around the origin, which is counted. Cost: 2 to 100 us, and more at a continuum.
+/// closed surface that goes around the origin, which is counted. Throws InputError naming "pose.position[i]"
+/// or "pose.rotation". Cost: 2 to 100 us, and more at a continuum.
 [[nodiscard]] std::optional<Penetration> penetration(const Placed& agent, const Placed& obstacle);
 
 }  // namespace vericone

@@ -39,9 +39,9 @@ struct Slab {
 /// own numbers once, about its own origin. Immutable; copies share.
 class SlabPair {
  public:
-  /// Throws InputError naming "agent" for a body that hyperboloids delimit, "pose.rotation", "slab.normal"
-  /// (not finite, or 0), "slab.low" or "slab.high" (not a number, low above high, or both infinite). Linear
-  /// in the parts and points of the body; 1 us for a cylinder.
+  /// Throws InputError naming "agent" for a body that hyperboloids delimit, "pose.position[i]" or
+  /// "pose.rotation", "slab.normal" (not finite, or 0), "slab.low" or "slab.high" (not a number, low above
+  /// high, or both infinite). Linear in the parts and points of the body; 1 us for a cylinder.
   SlabPair(const Placed& agent, const Slab& obstacle);
 
   [[nodiscard]] Relation relation() const;
