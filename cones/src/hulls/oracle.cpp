@@ -38,16 +38,6 @@ Eigen::Vector3d at_scale_one(const Eigen::Vector3d& w, int& exponent) {
   return {std::scalbn(w.x(), -exponent), std::scalbn(w.y(), -exponent), std::scalbn(w.z(), -exponent)};
 }
 
-/// Two rows orthogonal to w, orthonormal where the ellipsoid is the unit ball.
-Eigen::Matrix<double, 2, 3> shadow_plane(const HullScene& scene, const Eigen::Vector3d& w) {
-  const Eigen::Vector3d axis = (scene.to_ball * w).normalized();
-  const Eigen::Vector3d p = axis.unitOrthogonal(), q = axis.cross(p);
-  Eigen::Matrix<double, 2, 3> g;
-  g.row(0) = p.transpose() * scene.to_ball;
-  g.row(1) = q.transpose() * scene.to_ball;
-  return g;
-}
-
 /// A normal close to n that has n.v < 0 certainly for all v within `spread` of w: a plane that contains w to
 /// rounding is turned to face away from it.
 Eigen::Vector3d facing_away(const Eigen::Vector3d& n, const Eigen::Vector3d& w,
@@ -321,14 +311,7 @@ Membership HullOracle::exact_membership(const Eigen::Vector3d& v_a, const Eigen:
   const exact::IntegerVector<3>& n = scene_->exact_normal;
   const exact::Integer side = n[0] * w[0] + n[1] * w[1] + n[2] * w[2];
   if (side.sign() <= 0) return Membership::out;
-  std::vector<HullPair> start;
-  if (scene_->usable) {
-    HullSimplex<2> simplex;
-    search_hull<2>(
-        *scene_, shadow_plane(*scene_, to_direction(w)), simplex, [](const auto&) { return false; },
-        [](const auto&, const auto&, const auto&) { return false; });
-    start.assign(simplex.pair.begin(), simplex.pair.begin() + simplex.count);
-  }
+  const auto start = around_line(*scene_, to_direction(w));
   switch (exact::origin_in_image<2>(*scene_, exact::shadow_rows(w), start, nullptr)) {
     case OriginIn::interior:
       return Membership::in;

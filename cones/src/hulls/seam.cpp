@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "ellipsoids/within.h"
+#include "hulls/search.h"
 
 namespace vericone::exact {
 namespace {
@@ -110,66 +111,123 @@ std::vector<Vector> differences(const HullScene& scene) {
   return all;
 }
 
-/// The least cost of a sum of columns with weights >= 0 that is (0, 0, 1): the simplex method, with Bland's
-/// rule, which ends.
-class LeastCost {
+/// The plane by which a line enters K, by the simplex method: of three points of K around the line the plane
+/// through them, in place of one of them the point farthest beyond it, and so on. It is the method on columns
+/// (L k, 1), L the shadow along w, whose sum with weights >= 0 is to be (0, 0, 1), and costs k_axis, which
+/// grow along w. Columns are asked for when they are needed, so each step costs as much as K has points.
+class EntryPlane {
  public:
-  struct Column {
-    Rational entry[3], cost, lacking = 0;
-  };
-  explicit LeastCost(std::vector<Column> columns) : columns_(std::move(columns)), count_(columns_.size()) {
-    columns_.push_back({{0, 0, 1}, 0});
-    // It begins with weights of three columns that are none, whose sum is to vanish first.
-    for (Column& c : columns_)
-      for (const Rational& e : c.entry) c.lacking -= e;
-    for (int r = 0; r < 3; ++r) basis_[r] = count_ + std::size_t(r);
-  }
+  EntryPlane(const HullScene& scene, const Vector& w)
+      : scene_(scene),
+        rows_(shadow_rows(w)),
+        axis_(w[0] != 0   ? 0
+              : w[1] != 0 ? 1
+                          : 2),
+        sign_(w[std::size_t(axis_)].sign()) {}
 
-  std::optional<Rational> solve() {
-    minimise(&Column::lacking);
-    if (columns_[count_].lacking != 0) return std::nullopt;
-    // What is left of them has weight 0, and goes where its row says anything.
-    for (int r = 0; r < 3; ++r)
-      for (std::size_t j = 0; j < count_ && basis_[r] >= count_; ++j)
-        if (columns_[j].entry[r] != 0) exchange(r, j);
-    minimise(&Column::cost);
-    return -columns_[count_].cost;
+  /// |k_axis| of where the line begins to be in K; nothing where it never is.
+  std::optional<Rational> solve(const std::vector<HullPair>& start) {
+    Shown shown;
+    if (origin_in_image<2>(scene_, rows_, start, nullptr, &shown) == OriginIn::outside) return std::nullopt;
+    begin(shown.pairs);
+    for (bool stays = false;;) {
+      weigh();
+      const ExactSupport support = exact_support(scene_, normal_);
+      if (support.value >= price_[2]) return Rational(price_[2], volume_);
+      // Where the last step has not moved, that with the first column that could enter ends all the same
+      // (Bland's rule).
+      stays = !enter(column(stays ? first_below() : support.pair));
+    }
   }
 
  private:
-  void minimise(Rational Column::*cost) {
-    for (;;) {
-      std::size_t enter = 0;
-      while (enter < count_ && columns_[enter].*cost >= 0) ++enter;
-      if (enter == count_) return;
-      int leave = -1;
-      Rational least;
-      for (int r = 0; r < 3; ++r) {
-        if (columns_[enter].entry[r] <= 0) continue;
-        const Rational ratio = columns_[count_].entry[r] / columns_[enter].entry[r];
-        if (leave >= 0 && (ratio > least || (ratio == least && basis_[r] > basis_[leave]))) continue;
-        leave = r;
-        least = ratio;
-      }
-      if (leave < 0) return;  // never: the weights' sum is bounded
-      exchange(leave, enter);
-    }
-  }
-  void exchange(int row, std::size_t enter) {
-    const Column by = columns_[enter];
-    for (Column& c : columns_) {
-      const Rational share = c.entry[row] / by.entry[row];
-      if (share == 0) continue;
-      for (int r = 0; r < 3; ++r) c.entry[r] -= by.entry[r] * share;
-      c.entry[row] = share;
-      c.cost -= by.cost * share;
-      c.lacking -= by.lacking * share;
-    }
-    basis_[row] = enter;
+  struct Column {
+    Vector entry;
+    Integer cost;
+    std::optional<HullPair> pair;  // none: stands in until there is one, with weight 0
+  };
+  static bool before(const HullPair& p, const HullPair& q) {
+    return std::pair(p.obstacle, p.agent) < std::pair(q.obstacle, q.agent);
   }
 
-  std::vector<Column> columns_;  // the last is (0, 0, 1)
-  std::size_t count_, basis_[3];
+  Column column(const HullPair& pair) const {
+    const Vector b = scene_.exact_obstacle(pair.obstacle), a = scene_.exact_agent(pair.agent);
+    const Vector k{b[0] - a[0], b[1] - a[1], b[2] - a[2]};
+    return {{dot<3>(rows_[0], k), dot<3>(rows_[1], k), 1}, sign_ * k[std::size_t(axis_)], pair};
+  }
+
+  /// With up to three pairs that all have weights > 0.
+  void begin(const std::vector<HullPair>& pairs) {
+    std::size_t i = 0;
+    for (; i < pairs.size(); ++i) basis_[i] = column(pairs[i]);
+    if (i == 2) {
+      const Vector y = basis_[0].entry;  // and the other one's is opposite
+      basis_[i++] = {{-y[1], y[0], 0}, 0, {}};
+    }
+    for (int k = 0; i < 3; ++k) basis_[i++] = {{k == 0, k == 1, 0}, 0, {}};
+  }
+
+  /// The basis' inverse times its determinant, > 0; prices of its rows; the plane's normal in space.
+  void weigh() {
+    for (std::size_t i = 0; i < 3; ++i)
+      inverse_[i] = cross(basis_[(i + 1) % 3].entry, basis_[(i + 2) % 3].entry);
+    volume_ = dot<3>(inverse_[0], basis_[0].entry);
+    if (volume_ < 0) {
+      volume_ = -volume_;
+      for (Vector& row : inverse_)
+        for (Integer& e : row) e = -e;
+    }
+    for (std::size_t k = 0; k < 3; ++k) {
+      price_[k] = 0;
+      for (std::size_t i = 0; i < 3; ++i) price_[k] += basis_[i].cost * inverse_[i][k];
+      normal_[k] = 0;
+    }
+    normal_[std::size_t(axis_)] = sign_ * volume_;
+    for (std::size_t k = 0; k < 3; ++k) normal_[k] -= price_[0] * rows_[0][k] + price_[1] * rows_[1][k];
+  }
+
+  /// Whether the plane moves.
+  bool enter(Column entering) {
+    Vector share;  // times the volume; the weights are inverse_[.][2]
+    for (std::size_t i = 0; i < 3; ++i) share[i] = dot<3>(inverse_[i], entering.entry);
+    std::size_t leave = 3;
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (!basis_[i].pair && share[i] != 0) {
+        basis_[i] = std::move(entering);
+        return false;
+      }
+      if (share[i] <= 0) continue;
+      if (leave < 3) {
+        const Integer more = inverse_[i][2] * share[leave] - inverse_[leave][2] * share[i];
+        if (more > 0 || (more == 0 && before(*basis_[leave].pair, *basis_[i].pair))) continue;
+      }
+      leave = i;
+    }
+    const bool moves = inverse_[leave][2] > 0;
+    basis_[leave] = std::move(entering);
+    return moves;
+  }
+
+  /// The first pair below the plane.
+  HullPair first_below() const {
+    std::vector<Integer> agent;
+    for (std::size_t i = 0; i < scene_.agent.size(); ++i)
+      agent.push_back(dot<3>(normal_, scene_.exact_agent(i)) + price_[2]);
+    for (std::size_t j = 0; j < scene_.obstacle.size(); ++j) {
+      const Integer at = dot<3>(normal_, scene_.exact_obstacle(j));
+      for (std::size_t i = 0; i < agent.size(); ++i)
+        if (at < agent[i]) return {std::uint32_t(j), std::uint32_t(i)};
+    }
+    return {};  // never
+  }
+
+  const HullScene& scene_;
+  Rows<2> rows_;
+  int axis_, sign_;
+  std::array<Column, 3> basis_;
+  std::array<Vector, 3> inverse_;
+  Integer volume_;
+  Vector price_, normal_;
 };
 
 }  // namespace
@@ -280,18 +338,11 @@ bool is_flat(const std::vector<Eigen::Vector3d>& points) {
 }
 
 std::optional<std::pair<double, double>> first_time(const HullScene& scene, const Eigen::Vector3d& w) {
-  constexpr std::size_t kMostPoints = 200;  // milliseconds
-  if (scene.obstacle.size() * scene.agent.size() > kMostPoints) return std::nullopt;
   const Vector direction = direction_on_grid<3>(w);
-  const Rows<2> rows = shadow_rows(direction);
-  const int axis = direction[0] != 0 ? 0 : direction[1] != 0 ? 1 : 2;
-  const Rational along = w(axis);
-  std::vector<LeastCost::Column> points;
-  for (const Vector& k : differences(scene))
-    points.push_back({{dot<3>(rows[0], k), dot<3>(rows[1], k), 1}, Rational(k[axis]) / along});
-  const std::optional<Rational> least = LeastCost(std::move(points)).solve();
+  const auto least = EntryPlane(scene, direction).solve(around_line(scene, w / w.cwiseAbs().maxCoeff()));
   if (!least) return std::nullopt;
-  const double time = std::ldexp(static_cast<double>(*least), scene.grid);
+  const double along = std::abs(direction[0] != 0 ? w.x() : direction[1] != 0 ? w.y() : w.z());
+  const double time = std::ldexp(static_cast<double>(Rational(*least / Rational(along))), scene.grid);
   if (!(time > 0x1p-1000 && time < 0x1p1000)) return std::nullopt;
   return std::pair(time * (1 - 0x1p-51), time * (1 + 0x1p-51));
 }

@@ -10,6 +10,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include "hulls/scene.h"
 
@@ -161,6 +162,27 @@ void search_hull(const HullScene& scene, const Eigen::Matrix<double, D, 3>& g, H
     if (!(gain > 1e-15 * simplex.normal.norm() * simplex.z[0].norm())) return;
     simplex.add(support.pair, image);
   }
+}
+
+/// Two rows orthogonal to w, orthonormal where the ellipsoid is the unit ball.
+inline Eigen::Matrix<double, 2, 3> shadow_plane(const HullScene& scene, const Eigen::Vector3d& w) {
+  const Eigen::Vector3d axis = (scene.to_ball * w).normalized();
+  const Eigen::Vector3d p = axis.unitOrthogonal(), q = axis.cross(p);
+  Eigen::Matrix<double, 2, 3> g;
+  g.row(0) = p.transpose() * scene.to_ball;
+  g.row(1) = q.transpose() * scene.to_ball;
+  return g;
+}
+
+/// Where a search in doubles of the shadow along w ends: the points of K nearest to the line of w, or around
+/// it. `w`: largest entry 1.
+inline std::vector<HullPair> around_line(const HullScene& scene, const Eigen::Vector3d& w) {
+  if (!scene.usable) return {};
+  HullSimplex<2> simplex;
+  search_hull<2>(
+      scene, shadow_plane(scene, w), simplex, [](const auto&) { return false; },
+      [](const auto&, const auto&, const auto&) { return false; });
+  return {simplex.pair.begin(), simplex.pair.begin() + simplex.count};
 }
 
 }  // namespace vericone

@@ -221,7 +221,7 @@ class Classifier {
 
   /// Of a velocity that meets a pair: a time by which it has, and the normal of a plane that it does not
   /// reach much before. The first contact of two hulls may be the optimum of a linear programme in whole
-  /// numbers, milliseconds; verdicts bracket it in microseconds.
+  /// numbers, tens of microseconds; verdicts bracket it in a few.
   struct Meeting {
     double by;
     std::optional<Vector3d> normal;

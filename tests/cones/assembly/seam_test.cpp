@@ -9,6 +9,7 @@
 #include <Eigen/LU>
 #include <cmath>
 
+#include "support/campaign.h"
 #include "support/random.h"
 
 namespace vericone::seam_test {
@@ -358,6 +359,76 @@ TEST(Seams, FacesThatMeetHeadOnHaveATime) {
   EXPECT_LE(contact->earliest, 0.4);
   EXPECT_GE(contact->latest, 0.4 * (1 - 1e-15));
   EXPECT_LT(contact->latest - contact->earliest, 1e-13);
+}
+
+/// The least t >= 0 with t w in the hull of all b - a: in it there is a point of the line that one of them,
+/// two or three make. By sums that are exact for small integers.
+std::optional<double> first_of_all(const std::vector<Vector3d>& k, const Vector3d& w) {
+  std::optional<double> first;
+  int axis = 0;
+  w.cwiseAbs().maxCoeff(&axis);
+  std::vector<Eigen::Vector2d> shadow;
+  for (const Vector3d& x : k) {
+    const Vector3d y = w(axis) * x - x(axis) * w;
+    shadow.emplace_back(y((axis + 1) % 3), y((axis + 2) % 3));
+  }
+  const auto cross = [&](std::size_t i, std::size_t j) {
+    return shadow[i].x() * shadow[j].y() - shadow[i].y() * shadow[j].x();
+  };
+  const auto consider = [&](double weight, double along) {
+    const double t = along / weight / w(axis);
+    if (t >= 0 && (!first || t < *first)) first = t;
+  };
+  for (std::size_t i = 0; i < k.size(); ++i) {
+    if (shadow[i].isZero(0)) consider(1, k[i](axis));
+    for (std::size_t j = 0; j < i; ++j) {
+      if (cross(i, j) == 0 && shadow[i].dot(shadow[j]) < 0) {
+        const double a = shadow[j].norm(), b = shadow[i].norm();
+        consider(a + b, a * k[i](axis) + b * k[j](axis));
+      }
+      for (std::size_t l = 0; l < j; ++l) {
+        const double a = cross(j, l), b = cross(l, i), c = cross(i, j);
+        if ((a > 0 && b > 0 && c > 0) || (a < 0 && b < 0 && c < 0))
+          consider(a + b + c, a * k[i](axis) + b * k[j](axis) + c * k[l](axis));
+      }
+    }
+  }
+  return first;
+}
+
+TEST(Seams, FirstTimesOfHullsAreThoseOfTheirPoints) {
+  testing::Random random(4111);
+  SCOPED_TRACE(random.trace());
+  int met = 0, missed = 0;
+  const int cases = static_cast<int>(testing::from_environment("VERICONE_CASES", 400));
+  for (int i = 0; i < cases; ++i) {
+    const bool integers = i % 4 != 0;
+    const auto points = [&](const Vector3d& at) {
+      std::vector<Vector3d> all;
+      for (int n = random.integer(1, 6); n > 0; --n)
+        all.push_back(integers ? Vector3d(at + Vector3d(random.integer(-2, 2), random.integer(-2, 2),
+                                                        random.integer(-2, 2)))
+                               : Vector3d(at + 2 * random.vector<3>().normalized()));
+      return all;
+    };
+    const std::vector<Vector3d> a = points(Vector3d::Zero()), b = points({6, 0, 1});
+    const Vector3d w = integers ? Vector3d(random.integer(1, 4), random.integer(-1, 1), random.integer(-1, 1))
+                                : Vector3d(Vector3d(6, 0, 1) + random.vector<3>().normalized());
+    std::vector<Vector3d> k;
+    for (const Vector3d& x : b)
+      for (const Vector3d& y : a) k.push_back(x - y);
+    const auto truth = first_of_all(k, w);
+    const auto found = Pair(Body(HullBody(a)), Body(HullBody(b))).contact(w, Vector3d::Zero());
+    ASSERT_EQ(found.has_value(), truth.has_value()) << i;
+    truth ? ++met : ++missed;
+    if (!truth) continue;
+    const double off = integers ? 1e-15 : 1e-11;
+    EXPECT_LE(found->earliest, *truth * (1 + off)) << i;
+    EXPECT_GE(found->latest, *truth * (1 - off)) << i;
+    EXPECT_LE(found->latest - found->earliest, 1.001e-12 * *truth) << i;
+  }
+  EXPECT_GT(met, cases / 4);
+  EXPECT_GT(missed, cases / 10);
 }
 
 }  // namespace
