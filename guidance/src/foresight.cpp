@@ -411,12 +411,14 @@ Navigator::Foreseen Navigator::foresee(const Moment& now, const Course& course, 
   if (corridor_ &&
       out_of_corridor(flight) > std::max(-now.slack, out_of_corridor(now.position, now.reach) + now.slack))
     return Foreseen::nothing();
+  const Outline outline(flight);
   Foreseen result;
   result.kept = required_ + beyond_;
   for (std::size_t n = 0; n < bodies_.size(); ++n) {
     // First the one that the course before failed by.
     const std::size_t i = n == 0 ? failed_by_ : n <= failed_by_ ? n - 1 : n;
     const Body& other = bodies_[i];
+    if (result.better_than(floor) && outline.is_far(flight, other, result.kept)) continue;
     if (floor.hits() && floor.hit > now.since && meets(flight, other, floor.hit - now.since)) {
       failed_by_ = i;
       return {0, 0};
@@ -480,8 +482,10 @@ void Navigator::tell(const Moment& now, Course course, double time, NavigatorSte
   for (std::size_t leg = 0;; ++leg) {
     if (leg < legs_.size()) course.until = legs_[leg].begin - time - at.since;
     const Flight flight(at, course);
+    const Outline outline(flight);
     double hit = kFar, depth = 0;
     for (std::size_t i = 0; i < bodies_.size(); ++i) {
+      if (outline.is_far(flight, bodies_[i], least)) continue;
       const Approach seen = see(flight, bodies_[i], 0, std::max(least, 1e-300), 0, Meeting::depth);
       if (seen.hit < hit) {
         hit = seen.hit;

@@ -7,6 +7,7 @@
 #include <vericone/guidance/navigator.h>
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -19,8 +20,9 @@ using courses::Meeting, courses::Near, courses::Sweep, courses::Wanted;
 
 inline constexpr double kPi = std::numbers::pi;
 inline constexpr double kFar = std::numeric_limits<double>::infinity();
-inline constexpr double kAligned = 1e-6;  // rad
-inline constexpr double kAlmost = 1e-9;   // m, what rounding may take
+inline constexpr double kAligned = 1e-6;     // rad
+inline constexpr double kAlmost = 1e-9;      // m, what rounding may take
+inline constexpr double kAbove = 1 + 1e-12;  // of a bound that was rounded to nearest
 
 struct Navigator::Moment {
   Eigen::Vector3d position, velocity, ahead;
@@ -134,6 +136,69 @@ struct Navigator::Approach {
   double hit = kFar;    // s from its moment
   double depth = 0;     // m
   [[nodiscard]] bool done() const { return hit < kFar || least <= hopeless; }
+};
+
+/// The corners of a course, between which it is nearly straight, and then straight for ever: enough to tell
+/// that most bodies are far from it.
+class Outline {
+ public:
+  template <typename Flight>
+  explicit Outline(const Flight& flight) : since_(flight.now.since), reach_(flight.now.reach) {
+    const auto& course = flight.course;
+    const double offset = (flight.now.body.center() - flight.now.position).norm();
+    const auto corner = [&](double t, double most, double off_arc) {
+      const double span = t - corners_[count_ - 1].t;
+      corners_[count_++] = {flight.center(t), t, (most * span * span / 8 + off_arc) * kAbove};
+    };
+    corners_[count_++] = {flight.center(0), 0, 0};
+    if (course.turning > 0) corner(course.turning, course.most, 2 * offset);
+    if (course.circles < kFar) {
+      corner(course.circles, 0, 0);
+      // Whoever circles is somewhere about its middle.
+      about_ = 2 * flight.round() * kAbove + 2 * offset;
+    } else if (course.brakes < kFar) {
+      corner(course.brakes, 0, 0);
+      if (course.braking > 0) corner(course.rests(), course.velocity.norm() / course.braking, 0);
+    } else {
+      velocity_ = course.velocity;
+    }
+  }
+
+  /// Whether it surely keeps `enough` metres from a body. Who swerves does so until the last corner only, so
+  /// nothing is known beyond.
+  template <typename Flight, typename Body>
+  [[nodiscard]] bool is_far(const Flight& flight, const Body& other, double enough) const {
+    if (other.swerves > 0 && flight.course.brakes == kFar) return false;
+    enough += (other.reach + reach_) * kAbove + 2 * other.offset;
+    const auto seen = [&](const Corner& corner) {
+      return Eigen::Vector3d(other.body.center() + (since_ + corner.t) * other.velocity - corner.center);
+    };
+    Eigen::Vector3d c = seen(corners_[0]);
+    for (int i = 1; i < count_; ++i) {
+      const Corner& end = corners_[i];
+      const Eigen::Vector3d next = seen(end), along = next - c;
+      const double square = along.squaredNorm();
+      const double part = square > 0 ? std::clamp(-c.dot(along) / square, 0.0, 1.0) : 0;
+      const double more = end.beside + flight.swerved(other, end.t) + flight.rounding(other, end.t);
+      if (!((c + part * along).norm() >= enough + more)) return false;
+      c = next;
+    }
+    enough += about_;
+    const Eigen::Vector3d w = velocity_ - other.velocity;
+    const double square = w.squaredNorm(), last = corners_[count_ - 1].t;
+    const double nearest = square > 0 ? std::max(0.0, c.dot(w) / square) : 0;
+    return (c - nearest * w).norm() >= enough + 4 * flight.rounding(other, last + nearest);
+  }
+
+ private:
+  struct Corner {
+    Eigen::Vector3d center;
+    double t, beside;  // s; m, from the straight line that leads here
+  };
+  std::array<Corner, 4> corners_;
+  int count_ = 0;
+  Eigen::Vector3d velocity_ = Eigen::Vector3d::Zero();  // m/s, after the last
+  double since_, reach_, about_ = 0;
 };
 
 }  // namespace vericone::guidance

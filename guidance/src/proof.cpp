@@ -5,7 +5,6 @@
 #include <vericone/geometry/error.h>
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -17,70 +16,8 @@ using Eigen::Vector3d;
 
 namespace {
 
-constexpr double kAbove = 1 + 1e-12;   // of a bound that was rounded to nearest
 constexpr double kBeside = 2e-3;       // of a distance: what is beside a chord may take so much of it
 constexpr double kAsGoodAsEver = 1e6;  // s: for who hardly moves as seen from another
-
-/// The corners of a course, between which it is nearly straight, and then straight for ever: enough to tell
-/// that most bodies are far from it.
-class Outline {
- public:
-  template <typename Flight>
-  explicit Outline(const Flight& flight) : since_(flight.now.since), reach_(flight.now.reach) {
-    const auto& course = flight.course;
-    const double offset = (flight.now.body.center() - flight.now.position).norm();
-    const auto corner = [&](double t, double most, double off_arc) {
-      const double span = t - corners_[count_ - 1].t;
-      corners_[count_++] = {flight.center(t), t, (most * span * span / 8 + off_arc) * kAbove};
-    };
-    corners_[count_++] = {flight.center(0), 0, 0};
-    if (course.turning > 0) corner(course.turning, course.most, 2 * offset);
-    if (course.circles < kFar) {
-      corner(course.circles, 0, 0);
-      // Whoever circles is somewhere about its middle.
-      about_ = 2 * flight.round() * kAbove + 2 * offset;
-    } else if (course.brakes < kFar) {
-      corner(course.brakes, 0, 0);
-      if (course.braking > 0) corner(course.rests(), course.velocity.norm() / course.braking, 0);
-    } else {
-      velocity_ = course.velocity;
-    }
-  }
-
-  /// Whether it surely keeps `enough` metres from a body, which swerves until its last corner only.
-  template <typename Flight, typename Body>
-  bool is_far(const Flight& flight, const Body& other, double enough) const {
-    enough += (other.reach + reach_) * kAbove + 2 * other.offset;
-    const auto seen = [&](const Corner& corner) {
-      return Vector3d(other.body.center() + (since_ + corner.t) * other.velocity - corner.center);
-    };
-    Vector3d c = seen(corners_[0]);
-    for (int i = 1; i < count_; ++i) {
-      const Corner& end = corners_[i];
-      const Vector3d next = seen(end), along = next - c;
-      const double square = along.squaredNorm();
-      const double part = square > 0 ? std::clamp(-c.dot(along) / square, 0.0, 1.0) : 0;
-      const double more = end.beside + flight.swerved(other, end.t) + flight.rounding(other, end.t);
-      if (!((c + part * along).norm() >= enough + more)) return false;
-      c = next;
-    }
-    enough += about_;
-    const Vector3d w = velocity_ - other.velocity;
-    const double square = w.squaredNorm(), last = corners_[count_ - 1].t;
-    const double nearest = square > 0 ? std::max(0.0, c.dot(w) / square) : 0;
-    return (c - nearest * w).norm() >= enough + 4 * flight.rounding(other, last + nearest);
-  }
-
- private:
-  struct Corner {
-    Vector3d center;
-    double t, beside;  // s; m, from the straight line that leads here
-  };
-  std::array<Corner, 4> corners_;
-  int count_ = 0;
-  Vector3d velocity_ = Vector3d::Zero();  // m/s, after the last
-  double since_, reach_, about_ = 0;
-};
 
 }  // namespace
 
@@ -249,8 +186,7 @@ void Navigator::prove(const Moment& now, Course course, double time, NavigatorSt
       if (course.brakes == kFar && course.circles == kFar && !w.isZero(0) &&
           w.norm() < 1e-9 * (course.velocity.norm() + other.velocity.norm()))
         end = std::min(end, kAsGoodAsEver);
-      const bool ends = other.swerves > 0 && course.brakes == kFar;
-      if (ends || !outline.is_far(flight, other, kept)) kept = surely_all(flight, other, end, kept);
+      if (!outline.is_far(flight, other, kept)) kept = surely_all(flight, other, end, kept);
       if (!(kept >= 0)) return;
       if (last) step.until = std::min(step.until, at.since + end);
     }
