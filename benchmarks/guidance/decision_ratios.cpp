@@ -139,16 +139,8 @@ int main(int argc, char** argv) {
       "| verdict of | median, for ever | within a horizon | ratio | mean, for ever | within a horizon | "
       "ratio |\n"
       "| --- | --- | --- | --- | --- | --- | --- |\n");
-  using enum BodyKind;
-  for (const auto& [first, second] : {std::pair(ellipsoid, ellipsoid),
-                                      {ellipsoid, hull},
-                                      {hull, hull},
-                                      {ellipsoid, mesh},
-                                      {ellipsoid, boxes},
-                                      {mesh, boxes},
-                                      {ellipsoid, combined},
-                                      {combined, hull}})
-    horizon_row(first, second, cases);
+  for (std::size_t i = 0; i < kBodyKinds.size(); ++i)
+    for (std::size_t j = i; j < kBodyKinds.size(); ++j) horizon_row(kBodyKinds[i], kBodyKinds[j], cases);
   std::printf(
       "\n| bands of headings, speeds, climb rates | intruders | median an intruder | 90 %% | 99 %% |\n"
       "| --- | --- | --- | --- | --- |\n");

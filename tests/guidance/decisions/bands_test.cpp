@@ -108,22 +108,32 @@ Band headings(const Discs& d) {
 TEST(BandsOfDiscs, EndWhereTheClosedFormSays) {
   RandomBodies random(3821);
   SCOPED_TRACE(random.trace());
-  int some = 0, two = 0;
+  int some = 0, two = 0, frees = 0, conflicts = 0;
   double worst = 0;
   for (int i = 0; i < share(4000); ++i) {
     const double far = random.uniform(3, 30), side = random.uniform(0, kTurn);
     const Discs d{far * Vector2d(std::cos(side), std::sin(side)),
                   Vector2d(random.uniform(-4, 4), random.uniform(-4, 4)), random.uniform(0.5, 2.5),
                   random.uniform(0.5, 5), i % 4 == 0 ? kEver : random.uniform(1, 20)};
-    const std::vector<double> expected = d.true_ends(), found = ends_of(headings(d));
+    const Band band = headings(d);
+    const std::vector<double> expected = d.true_ends(), found = ends_of(band);
     ASSERT_EQ(found.size(), expected.size()) << "case " << i;
+    for (const Range& range : band.free)
+      for (int k = 1; k < 50; ++k, ++frees)
+        ASSERT_FALSE(d.meet(range.from + (range.to - range.from) * k / 50)) << "case " << i;
+    for (const Range& range : band.conflict)
+      for (int k = 1; k < 50; ++k, ++conflicts)
+        ASSERT_TRUE(d.meet(range.from + (range.to - range.from) * k / 50)) << "case " << i;
     for (std::size_t k = 0; k < found.size(); ++k) worst = std::max(worst, std::abs(found[k] - expected[k]));
     some += !expected.empty();
     two += expected.size() > 2;
   }
+  std::cout << "[ samples  ] " << frees << " free, " << conflicts << " in conflict\n";
   EXPECT_LT(worst, 1e-9 * kDegree);
   EXPECT_GT(some, share(4000) / 4);
   EXPECT_GT(two, 0);
+  EXPECT_GE(frees, share(100'000));
+  EXPECT_GE(conflicts, share(100'000));
 }
 
 TEST(BandsOfDiscs, LoseNoNeedle) {

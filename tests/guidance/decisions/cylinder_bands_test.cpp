@@ -180,6 +180,7 @@ TEST(BandsOfCylinders, EndWhereTheClosedFormSays) {
   RandomBodies random(3841);
   SCOPED_TRACE(random.trace());
   std::array<int, 4> some{};
+  int frees = 0, conflicts = 0;
   double heading = 0, others = 0;
   for (int i = 0; i < share(2000); ++i) {
     SCOPED_TRACE("case " + std::to_string(i));
@@ -214,14 +215,26 @@ TEST(BandsOfCylinders, EndWhereTheClosedFormSays) {
     const auto headings = d.headings();
     heading = std::max(heading, worst_of(inner_ends(found.heading, 0, 2 * kHalfTurn), headings, 1));
     ASSERT_LT(heading, 1e-9 * kHalfTurn / 180);
+    const auto sample = [&](const Band& band, const auto& meets) {
+      for (const auto& [ranges, hit, count] :
+           {std::tuple(&band.free, false, &frees), {&band.conflict, true, &conflicts}})
+        for (const Range& range : *ranges)
+          for (int k = 1; k < 30; ++k, ++*count)
+            ASSERT_EQ(meets(range.from + (range.to - range.from) * k / 30), hit);
+    };
     const auto check = [&](const Band& band, const Range& range, const std::vector<double>& expected) {
       const double worst = worst_of(inner_ends(band, range.from, range.to), expected, range.to - range.from);
       others = std::max(others, worst);
       ASSERT_LT(worst, 1e-10);
     };
+    const Vector2d ahead = d.v.head<2>() / d.speed();
     check(found.speed, options.speed, d.speeds(options.speed));
     check(found.climb, options.climb, d.climbs(options.climb));
     check(found.altitude, options.altitude, d.altitudes(options.altitude));
+    sample(found.heading, [&](double q) { return d.meet(d.heading(q)); });
+    sample(found.speed, [&](double q) { return d.meet({q * ahead.x(), q * ahead.y(), d.v.z()}); });
+    sample(found.climb, [&](double q) { return d.meet({d.v.x(), d.v.y(), q}); });
+    sample(found.altitude, [&](double q) { return d.meet({d.v.x(), d.v.y(), 0}, q); });
     some[0] += !headings.empty();
     some[1] += !d.speeds(options.speed).empty();
     some[2] += !d.climbs(options.climb).empty();
@@ -229,7 +242,7 @@ TEST(BandsOfCylinders, EndWhereTheClosedFormSays) {
   }
   std::cout << "[ ends     ] headings " << heading * 180 / kHalfTurn << " degrees; others " << others
             << " of the range; of " << some[0] << ", " << some[1] << ", " << some[2] << ", " << some[3]
-            << "\n";
+            << "; " << frees << " samples free, " << conflicts << " in conflict\n";
   for (const int n : some) EXPECT_GT(n, share(2000) / 10);
 }
 
