@@ -559,13 +559,14 @@ def groups(m, read):
 def cover(m, read):
     """Boxes that hold the pieces stand for them."""
     side, parts = getattr(m, read.of), shared(m, read, len(read.boxes))
+    rows, scale = side.body.rows, side.body.scale
     for (low, high), part in zip(read.boxes, parts):
-        its = Side(side.who, side.body, part)
-        form(not any(skin.shape or skin.cuts for skin in its.points), "cover is for corners and balls")
-        for e, a, b in zip(E, low, high):
-            for n, most in ((e, b), (-e, -a)):
-                top = max(Fraction(x, its.body.scale) + skin.margin for skin, x in its.tops(n).items())
-                holds(top <= most, f"{len(part)} pieces are in the box from {low} to {high}")
+        for skin, points in Side(side.who, side.body, part).points.items():
+            form(not skin.shape and not skin.cuts, "cover is for corners and balls")
+            for axis, (a, b, half) in enumerate(zip(low, high, skin.half or O)):
+                column, room = [rows[i][axis] for i in points], half + skin.margin
+                holds((a + room) * scale <= min(column) and max(column) <= (b - room) * scale,
+                      f"{len(part)} pieces are in the box from {low} to {high}")
     prove(replace(m, **{read.of: replace(side, body=boxes(read.boxes), group=range(len(parts)))}), read.proof)
 
 def steps(m, times, each):
