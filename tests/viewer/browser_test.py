@@ -15,6 +15,8 @@ sys.path[:0] = [HERE, os.path.join(os.path.dirname(HERE), "cli")]
 import kinds  # noqa: E402
 from browser import Browser  # noqa: E402
 from command import SOURCE, VERICONE, run  # noqa: E402
+import runs  # noqa: E402
+from run_pages import RunsInBrowser  # noqa: E402
 
 CASES = int(os.environ.get("VERICONE_CASES", "10000" if os.environ.get("VERICONE_CAMPAIGN") == "long" else "60"))
 KEEP = os.environ.get("VERICONE_KEEP")
@@ -32,7 +34,9 @@ ASK = """((data, velocities) => {
 })"""
 
 
-class ViewInBrowser(unittest.TestCase):
+class ViewInBrowser(RunsInBrowser, unittest.TestCase):
+    COLOURS = COLOURS
+
     @classmethod
     def setUpClass(cls):
         cls.browser = Browser()
@@ -168,20 +172,22 @@ class ViewInBrowser(unittest.TestCase):
 
     @unittest.skipUnless(os.path.exists(AXE), "axe-core is not there (viewer/build brings it)")
     def test_accessible_in_light_and_dark_on_a_screen_and_a_phone(self):
-        path, _ = self.page()
+        pages = {"": self.page()[0], "run-": self.run_page(runs.agents(3, 3))[1]}
         with open(AXE, encoding="utf-8") as f:
             axe = f.read()
         self.addCleanup(lambda: (self.browser.like(prefers_color_scheme="light"), self.browser.size(1280, 900)))
-        for scheme, width in (("light", 1280), ("dark", 1280), ("light", 380)):
-            self.browser.size(width, 900)
-            self.browser.like(prefers_color_scheme=scheme)
-            self.open(path)
-            self.browser.run("document.querySelectorAll('details').forEach(d => d.open = true)")
-            self.browser.run(axe + "; 0")
-            found = self.browser.run("axe.run().then(r => r.violations.map(v => v.id + ': ' + v.nodes.map(n => n.target).join(' ')))")
-            self.assertEqual(found, [], scheme)
-            self.assertLessEqual(self.browser.run("document.documentElement.scrollWidth"), width)
-            self.shot("axe-%s-%d" % (scheme, width))
+        for name, path in pages.items():
+            for scheme, width in (("light", 1280), ("dark", 1280), ("light", 380)):
+                self.browser.size(width, 900)
+                self.browser.like(prefers_color_scheme=scheme)
+                self.open(path)
+                self.browser.run("document.querySelectorAll('details').forEach(d => d.open = true)")
+                self.browser.run(axe + "; 0")
+                found = self.browser.run(
+                    "axe.run().then(r => r.violations.map(v => v.id + ': ' + v.nodes.map(n => n.target).join(' ')))")
+                self.assertEqual(found, [], name + scheme)
+                self.assertLessEqual(self.browser.run("document.documentElement.scrollWidth"), width)
+                self.shot("axe-%s%s-%d" % (name, scheme, width))
 
 
 if __name__ == "__main__":

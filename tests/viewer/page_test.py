@@ -15,6 +15,7 @@ import unittest
 HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path[:0] = [HERE, os.path.join(os.path.dirname(HERE), "cli")]
 import kinds  # noqa: E402
+import runs  # noqa: E402
 from command import SOURCE, run  # noqa: E402
 
 
@@ -124,6 +125,71 @@ class ViewPages(unittest.TestCase):
         out = os.path.join(self.folder, "page.html")
         said = json.loads(run("view", kinds.write("ellipsoids", self.folder), "--out", out, "--json").stdout)
         self.assertEqual(said, {"page": out, "bytes": os.path.getsize(out)})
+
+
+class RunPages(unittest.TestCase):
+    """Pages of runs, by `view` and by `simulate --animate`: what they hold against the tables."""
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = folder.name
+
+    def page(self, scenario):
+        """Its folder, the page and its data."""
+        folder = runs.simulate(scenario, self.folder, "--animate")
+        out = os.path.join(self.folder, "page.html")
+        result = run("view", folder, "--out", out)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        with open(out, encoding="utf-8") as f, open(os.path.join(folder, "simulation.html"), encoding="utf-8") as same:
+            page = f.read()
+            self.assertEqual(page, same.read())  # one drawing code
+        return folder, page, json.loads(Elements(page).text("script", id="data")[0])
+
+    def test_rows_events_and_proofs_are_those_of_the_tables(self):
+        for d in (2, 3):
+            folder, page, data = self.page(runs.agents(3, d))
+            self.assertEqual((data["what"], data["planar"], data["end"]), ("run", d == 2, 4))
+            rows = runs.table(folder, "bodies.csv")
+            for body in data["bodies"]:
+                own = [r for r in rows if r["body"] == body["name"]]
+                self.assertEqual(body["t"], [float(r["t [s]"]) for r in own])
+                for name, columns in (("at", ("x [m]", "y [m]", "z [m]")), ("velocity", ("vx [m/s]", "vy [m/s]", "vz [m/s]")),
+                                      ("turn", ("qw", "qx", "qy", "qz"))):
+                    self.assertEqual(body[name], [float(r[c]) for r in own for c in columns])  # all digits
+                self.assertGreater(len(body["surface"]["triangles"]), 30)
+                self.assertIsNotNone(body["flies"])
+            with open(os.path.join(folder, "proof.json"), encoding="utf-8") as f:
+                self.assertEqual(data["proof"], json.load(f))
+            events = runs.table(folder, "events.csv")
+            self.assertEqual([(e["t"], e["event"], e["agent"]) for e in data["events"]],
+                             [(float(e["t [s]"]), e["event"], e["agent"]) for e in events])
+            self.assertEqual([g["reached"] for g in data["goals"]], [0.5] * 3)
+            self.assertEqual(sum(len(e["t"]) for e in data["encounters"]), len(runs.table(folder, "encounters.csv")))
+            self.assertEqual(data["bodies"][1]["name"], runs.HOSTILE)
+            self.assertNotIn("<img src=x", page)
+
+    def test_bodies_of_every_kind_and_long_runs(self):
+        _, page, data = self.page(runs.kinds())
+        for body in data["bodies"]:
+            self.assertGreater(len(body["surface"]["points"]), 9, body["name"])
+            self.assertEqual("numbers" in body, body["name"] != "late", body["name"])
+        self.assertEqual(data["bodies"][2]["dented"], [1, 2, 1])
+        self.assertGreaterEqual(data["bodies"][2]["t"][0], 1)
+        folder, page, data = self.page(runs.agents(5, 3, duration=16, step=0.01))
+        self.assertLess(len(page), 5_000_000)
+        rows = [r for r in runs.table(folder, "bodies.csv") if r["body"] == "A0"]
+        self.assertEqual(len(data["bodies"][0]["t"]), min(400, len(rows)))
+        self.assertEqual((data["bodies"][0]["t"][0], data["bodies"][0]["t"][-1]), (0, float(rows[-1]["t [s]"])))
+
+    def test_a_folder_that_is_none_of_a_run_is_one_line(self):
+        folder = runs.simulate(runs.agents(2, 2), self.folder)
+        for gone in ("bodies.csv", "scenario.yaml", "run.json"):
+            os.remove(os.path.join(folder, gone))
+            result = run("view", folder, "--out", os.path.join(self.folder, "page.html"))
+            self.assertEqual((result.returncode, result.stderr), (
+                2, "vericone: run: got %s without %s, must be a folder that vericone simulate has written\n" % (folder, gone)))
+            self.assertFalse(os.path.exists(os.path.join(self.folder, "page.html")))
 
 
 class ViewTemplate(unittest.TestCase):

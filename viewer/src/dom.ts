@@ -70,6 +70,12 @@ export function sized(canvas: HTMLCanvasElement): {
   return { context, width, height };
 }
 
+/** Around a canvas: 1, 2 or 5 times a power of ten, no smaller than `rough`. */
+export function niceStep(rough: number): number {
+  const power = 10 ** Math.floor(Math.log10(rough));
+  return power * ([1, 2, 5].find(k => k * power >= rough * (1 - 1e-9)) ?? 10);
+}
+
 /** Calls `draw` before the next picture, once however often it is asked. */
 export function nextFrame(draw: () => void): () => void {
   let waits = false;

@@ -32,6 +32,18 @@ export const digits = (x: number): string => (Object.is(x, -0) ? "-0" : String(x
 export const short = (x: number, n = 6): string =>
   Number.isFinite(x) ? String(Number(x.toPrecision(n))) : x > 0 ? "for ever" : "-";
 
+/** For people, and true: no more than x, no less than x. */
+export const atLeast = (x: number, n = 6): string => rounded(x, n, -1);
+export const atMost = (x: number, n = 6): string => rounded(x, n, 1);
+function rounded(x: number, n: number, way: number): string {
+  if (!Number.isFinite(x) || x === 0) return short(x, n);
+  const near = Number(x.toPrecision(n));
+  if (way * (near - x) >= 0) return String(near);
+  const place = Math.floor(Math.log10(Math.abs(near))) + 1 - n;
+  const next = Number((near + way * 10 ** place).toPrecision(n));
+  return way * (next - x) >= 0 ? String(next) : digits(x);
+}
+
 export const dot = (a: Vec, b: Vec): number => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 export const plus = (a: Vec, b: Vec, k = 1): Vec => [a[0] + k * b[0], a[1] + k * b[1], a[2] + k * b[2]];
 export const times = (a: Vec, k: number): Vec => [k * a[0], k * a[1], k * a[2]];

@@ -2,15 +2,17 @@
 import { Core, Pair } from "./core";
 import type { PageData } from "./data";
 import { element } from "./dom";
+import { RunPage } from "./run";
 import { ScenePage } from "./scene";
 
 async function start(): Promise<void> {
   const data = JSON.parse(element("data").textContent ?? "") as PageData;
   document.title = data.title + " \u2013 vericone";
   element("title").textContent = data.title;
+  element("main").append(element<HTMLTemplateElement>("of-" + data.what).content);
   const core = await Core.fromText(element("core").textContent ?? "");
   element("version").textContent = "vericone " + core.version();
-  const page = new ScenePage(core, data);
+  const page = data.what === "run" ? new RunPage(core, data) : new ScenePage(core, data);
   // For tests of this page: the library that it asks.
   Object.assign(window, { vericone: { core, page, data, Pair } });
   document.documentElement.dataset.ready = "yes";

@@ -14,7 +14,7 @@ import {
 } from "./core";
 import type { BodyData, SceneData, Surface } from "./data";
 import { button, colour, element, fillTable, make, nextFrame } from "./dom";
-import { digits, dot, norm, plus, short, stepped, times, typed } from "./doubles";
+import { atLeast, atMost, digits, dot, norm, plus, short, stepped, times, typed } from "./doubles";
 import { fillNeighbours } from "./neighbours";
 import { SolidView, type Line, type Shown } from "./solid_view";
 import { along, VelocityPlane, type PlaneName } from "./velocity_plane";
@@ -326,8 +326,8 @@ export class ScenePage {
     const cone = element("cone-say");
     if (this.cone)
       cone.textContent = [
-        `All directions of w = v agent - v obstacle that collide: between ${short(this.cone.least, 9)} and`,
-        `${short(this.cone.most, 9)} sr of 4 pi, proved. Solid line: inner cone, all of it collides;`,
+        `All directions of w = v agent - v obstacle that collide: between ${atLeast(this.cone.least, 9)} and`,
+        `${atMost(this.cone.most, 9)} sr of 4 pi, proved. Solid line: inner cone, all of it collides;`,
         "dashed: outer cone, nothing beyond it does. Surfaces and lines are drawn in doubles.",
       ].join(" ");
     else if (this.sector) cone.textContent = "The cone in the plane. " + edgeWords(this.sector).join(" ");
@@ -506,7 +506,7 @@ function edgeWords(edges: Sector): string[] {
     `Dashed, drawn in doubles: the least sector of what collides, from ${short(-edges.right, 9)} to`,
     `${short(edges.left, 9)} rad off the line of sight.`,
     error > 0
-      ? `Proved: nothing collides more than ${short(error, 3)} rad beyond it.`
+      ? `Proved: nothing collides more than ${atMost(error, 3)} rad beyond it.`
       : "Its edges are right to rounding.",
   ];
 }

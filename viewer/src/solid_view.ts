@@ -3,8 +3,8 @@
 // Bodies in space on a 2-D canvas, painted from the far end to the near one: no WebGL is asked for.
 import type { Vec } from "./core";
 import type { Surface } from "./data";
-import { colour, sized } from "./dom";
-import { cross, dot, norm, plus, turned } from "./doubles";
+import { colour, niceStep, sized } from "./dom";
+import { cross, dot, norm, plus, short, turned } from "./doubles";
 
 export interface Shown {
   surface: Surface;
@@ -33,7 +33,7 @@ interface Face {
   path: number[];
   fill: string;
   alpha: number;
-  dot: boolean;
+  dot: number; // pixels to its border; 0: a triangle
 }
 
 export class SolidView {
@@ -41,7 +41,7 @@ export class SolidView {
   private pitch = 24;
   private zoom = 1;
   private middle: Vec = [0, 0, 0];
-  private size = 1;
+  private corners: Vec[] = [];
 
   constructor(
     private readonly canvas: HTMLCanvasElement,
@@ -103,7 +103,7 @@ export class SolidView {
     const low = [0, 1, 2].map(k => Math.min(...points.map(p => p[k]))) as Vec;
     const high = [0, 1, 2].map(k => Math.max(...points.map(p => p[k]))) as Vec;
     this.middle = [0, 1, 2].map(k => (low[k] + high[k]) / 2) as Vec;
-    this.size = Math.max(norm(plus(high, low, -1)), 1e-300);
+    this.corners = Array.from({ length: 8 }, (_, i) => low.map((x, k) => ((i >> k) & 1 ? high[k] : x)) as Vec);
   }
 
   /** How many triangles there are, and how many were painted. */
@@ -114,7 +114,9 @@ export class SolidView {
     const toward: Vec = [Math.cos(p) * Math.cos(y), Math.cos(p) * Math.sin(y), Math.sin(p)];
     const right: Vec = [-Math.sin(y), Math.cos(y), 0],
       up = cross(toward, right);
-    const scale = (this.zoom * 1.2 * Math.min(width, 1.15 * height)) / this.size;
+    const reach = (e: Vec): number =>
+      Math.max(...this.corners.map(c => Math.abs(dot(e, plus(c, this.middle, -1)))), 1e-300);
+    const scale = this.zoom * Math.min((0.46 * width) / reach(right), (0.46 * height) / reach(up));
     const flat = (q: Vec): [number, number] => {
       const d = plus(q, this.middle, -1);
       return [width / 2 + scale * dot(right, d), height / 2 - scale * dot(up, d)];
@@ -123,12 +125,13 @@ export class SolidView {
     context.fillRect(0, 0, width, height);
     const all = picture.bodies.reduce((n, b) => n + b.surface.triangles.length / 3, 0);
     const every = Math.max(1, Math.ceil(all / MOST));
-    const faces = picture.bodies.flatMap(b => this.faces(b, flat, toward, up, every));
+    const faces = picture.bodies.flatMap(b => this.faces(b, flat, toward, up, every, scale));
     faces.sort((a, b) => a.depth - b.depth);
     for (const face of faces) paint(context, face);
     context.globalAlpha = 1;
     for (const line of picture.lines) stroke(context, line, flat);
     this.axes(context, right, up, height);
+    scaleBar(context, scale, width, height);
     return [all, faces.length];
   }
 
@@ -138,6 +141,7 @@ export class SolidView {
     toward: Vec,
     up: Vec,
     every: number,
+    scale: number,
   ): Face[] {
     const { points, triangles } = body.surface;
     const world: Vec[] = [];
@@ -155,14 +159,21 @@ export class SolidView {
       faces.push({
         depth: dot(a, toward) + dot(b, toward) + dot(c, toward),
         alpha: body.alpha,
-        dot: false,
+        dot: 0,
         path: [...flat(a), ...flat(b), ...flat(c)],
         fill: lit(Math.min(light, 1)),
       });
     }
     if (!triangles.length)
-      for (const q of world)
-        faces.push({ depth: 3 * dot(q, toward), alpha: body.alpha, dot: true, path: flat(q), fill: lit(1) });
+      world.forEach((q, i) =>
+        faces.push({
+          depth: 3 * dot(q, toward),
+          alpha: body.alpha,
+          dot: Math.max(1, scale * (body.surface.sizes?.[i] ?? 0)),
+          path: flat(q),
+          fill: lit(body.surface.sizes ? 0.5 + 0.5 * hash(i) : 1),
+        }),
+      );
     return faces;
   }
 
@@ -184,10 +195,29 @@ export class SolidView {
   }
 }
 
+/** Lightness of one of many boxes, so that neighbours are told apart. */
+const hash = (i: number): number => ((i * 2654435761) % 1024) / 1024;
+
+/** Nothing is foreshortened across the line of sight: one bar holds for all of the picture. */
+function scaleBar(context: CanvasRenderingContext2D, scale: number, width: number, height: number): void {
+  const metres = niceStep(50 / scale),
+    pixels = metres * scale,
+    x = width - 12 - pixels,
+    y = height - 12;
+  context.fillStyle = colour("quiet");
+  context.fillRect(x, y, pixels, 2);
+  context.fillRect(x, y - 4, 1, 6);
+  context.fillRect(x + pixels - 1, y - 4, 1, 6);
+  context.textAlign = "center";
+  context.textBaseline = "bottom";
+  context.fillText(short(metres) + " m", x + pixels / 2, y - 4);
+}
+
 function paint(context: CanvasRenderingContext2D, face: Face): void {
   context.globalAlpha = face.alpha;
   context.fillStyle = context.strokeStyle = face.fill;
-  if (face.dot) return context.fillRect(face.path[0] - 1, face.path[1] - 1, 2, 2);
+  if (face.dot)
+    return context.fillRect(face.path[0] - face.dot, face.path[1] - face.dot, 2 * face.dot, 2 * face.dot);
   const [a, b, c, d, e, f] = face.path;
   context.beginPath();
   context.moveTo(a, b);

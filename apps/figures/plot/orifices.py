@@ -56,14 +56,6 @@ class Orifice:
         """Of a window, the mesh around it; nothing of other orifices."""
         return [] if self.mesh is None else list(self.center(t) + self.mesh @ self.rotation(t).T)
 
-    def band(self, width: float) -> Array:
-        """The rim as a flat band, in its own frame: points and triangles. Outside of it a wall begins."""
-        away = self.own - self.own[:-1].mean(axis=0)
-        outer = self.own + width * away / np.maximum(np.linalg.norm(away, axis=1, keepdims=True), 1e-12)
-        n = len(self.own)
-        sides = [[[i, i + 1, n + i], [i + 1, n + i + 1, n + i]] for i in range(n - 1)]
-        return np.vstack([self.own, outer]), np.array(sides).reshape(-1, 3)
-
 
 def orifices(folder: Path) -> list[Orifice]:
     """All of a run; none of a run without."""

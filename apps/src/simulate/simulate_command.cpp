@@ -13,10 +13,12 @@
 #include "output/figures.h"
 #include "output/output_file.h"
 #include "output/output_options.h"
+#include "output/page_file.h"
 #include "output/progress.h"
 #include "scenarios/pictures/run_glb.h"
 #include "scenarios/read_scenario.h"
 #include "scenarios/run_json.h"
+#include "simulate/run_page.h"
 #include "simulate/run_text.h"
 #include "work/interrupt.h"
 #include "work/provenance.h"
@@ -105,9 +107,10 @@ int run_simulate(const SimulateOptions& options, std::ostream& out) {
     if (certificates && !certificates->made.empty())
       write_whole(folder.path() / "certificate.json", lines_of(*certificates));
     if (options.glb) write_whole(folder.path() / "simulation.glb", scenario::run_glb(scenario, *run));
-    if (options.figures || options.animate) progress.show("drawing", 0);
+    if (options.figures) progress.show("drawing", 0);
     if (options.figures) draw_figures("simulation.py", folder.path());
-    if (options.animate) draw_figures("animation.py", folder.path());
+    if (options.animate)
+      write_whole(folder.path() / "simulation.html", page_with(run_page(folder.path(), scenario)));
   }
   const std::vector<fs::path> files = folder.publish(names_of_files());
   if (options.json) {
@@ -131,7 +134,8 @@ int simulate_command(CommandLine& line) {
   line.option("scenario", simulate.scenario, "Scenario file, YAML (docs/reference/scenarios.md)").required();
   line.option("--out", simulate.out, "Folder for tables, proof and picture");
   line.negative_flag("--no-figures", simulate.figures, "Tables and proof only");
-  line.flag("--animate", simulate.animate, "Also the run over time, simulation.html: a page for any browser");
+  line.flag("--animate", simulate.animate,
+            "Also the run over time, simulation.html: a page for any browser (docs/howto/look.md)");
   line.flag("--certificate", simulate.certificate,
             "Also what proves that bodies stay apart, certificate.json, for programs that check it "
             "(docs/reference/certificates.md)");

@@ -4,12 +4,11 @@
 #include <vericone/geometry/error.h>
 #include <vericone/internal/geometry/body_numbers.h>
 #include <vericone/internal/scenes/words.h>
-#include <cstdio>
-#include <cstdlib>
 
 #include "cone/answer.h"
 #include "glb/body_surface.h"
 #include "json/json_value.h"
+#include "picture/surface_json.h"
 #include "solids/flat_body.h"
 
 namespace vericone {
@@ -21,22 +20,6 @@ std::size_t pieces_of(const Body& body) {
   if (const Assembly* assembly = body.assembly()) return assembly->size();
   if (const HullBody* hull = body.hull()) return hull->size();
   return body.quadrics() ? body.quadrics()->size() : 1;
-}
-
-/// As many digits as a picture shows.
-double rounded(double x) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.6g", x);
-  return std::strtod(text, nullptr);
-}
-
-Json surface_json(const glb::Drawn& drawn) {
-  Json points = Json::array(), triangles = Json::array();
-  for (const Vector3d& x : drawn.points)
-    for (const double entry : x) points.push_back(rounded(entry));
-  for (const auto& triangle : drawn.triangles)
-    for (const std::uint32_t i : triangle) triangles.push_back(i);
-  return {{"points", std::move(points)}, {"triangles", std::move(triangles)}};
 }
 
 /// About the body's middle, in the axes of the world for bodies in the plane, else its own.

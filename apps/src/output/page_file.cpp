@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "view/page_file.h"
+#include "output/page_file.h"
 
 #include <stdexcept>
 
