@@ -1,13 +1,15 @@
-(* That two bodies on their tracks have a common point at a time. *)
+(* That two bodies within their tubes come as near as d at a time, or meet: d = 0. *)
 From Vericone Require Export Runs Fits.
 Open Scope Q_scope.
 
-(* At some time in [from, to], each on a segment of its track. *)
-Definition meet (from to : R) (A B : runner R) : Prop :=
+(* At some time in [from, to], each on a segment of its track, a point of each is not farther apart than d from one of
+   the other, wherever the two are within the radii. *)
+Definition close (d from to : R) (A B : runner R) : Prop :=
   exists t f g a b, (from <= t <= to)%R /\ In f (track A) /\ In g (track B) /\
     (starts f <= t <= ends f)%R /\ (starts g <= t <= ends g)%R /\
     (0 < square (turned f t))%R /\ (0 < square (turned g t))%R /\
-    within_body (its_body A) a /\ within_body (its_body B) b /\ placed f t a = placed g t b.
+    within_body (its_body A) a /\ within_body (its_body B) b /\
+    forall x y, near (radius A) (sub x (placed f t a)) -> near (radius B) (sub y (placed g t b)) -> near d (sub x y).
 
 Fixpoint powerq (x : Q) (n : nat) : Q := match n with O => 1 | S n => reduced (x * powerq x n) end.
 Fixpoint evalq (p : form_q) (s t : Q) : Q :=
@@ -94,16 +96,55 @@ Proof.
     rewrite turned_around by lra. generalize (position (rg g) (Q2R t)) (rv x). clear. veq.
 Qed.
 
-Definition check_meet (from to : Q) (A B : runner Q) (t : Q) (x : vec Q) (pa pb : place) : bool :=
-  well_formed_runner from to A && well_formed_runner from to B && le from t && le t to &&
-  has_at A t x pa && has_at B t x pb.
-Theorem check_meet_sound : forall from to A B t x pa pb, check_meet from to A B t x pa pb = true ->
-  meet (Q2R from) (Q2R to) (rr A) (rr B).
+(* Where a mean of a piece's corners is at a time: what is found so is checked by has_at. *)
+Definition means_at (r : runner Q) (t : Q) (p : place) : list (vec Q) :=
+  match find (numbered 0 (its_body r)) (piece p) with
+  | None => []
+  | Some c =>
+      match chosenq (corners c) (weights p) with
+      | None => []
+      | Some qs =>
+          let x := meanq (map snd (weights p)) qs in
+          map (fun g => let q := turnedq g t in addq (positionq g t) (scaleq (/ squareq q) (mulq (rotationq q) x)))
+            (filter (fun g => lt (starts g) (ends g) && le (starts g) t && le t (ends g)) (track r))
+      end
+  end.
+
+Lemma near_add : forall r s u v, (0 <= r)%R -> (0 <= s)%R -> near r u -> near s v -> near (r + s) (add u v).
 Proof.
-  intros from to A B t x pa pb H. unfold check_meet in H.
+  intros r s u v R0 S0 U V. unfold near in *. pose proof (cauchy u v). pose proof (dot_self u). pose proof (dot_self v).
+  assert (dot u u * dot v v <= r * r * (s * s))%R by (apply Rmult_le_compat; assumption).
+  assert (dot u v <= r * s)%R by (apply square_le; [apply Rmult_le_pos; assumption|lra]).
+  replace (dot (add u v) (add u v)) with (dot u u + 2 * dot u v + dot v v)%R by (clear; veq). lra.
+Qed.
+Lemma near_opp : forall r u, near r u -> near r (opp u).
+Proof. intros r u U. unfold near in *. replace (dot (opp u) (opp u)) with (dot u u) by (clear; veq). exact U. Qed.
+
+Definition check_close (d from to : Q) (A B : runner Q) (t : Q) (x y : vec Q) (pa pb : place) : bool :=
+  let s := d - radius A - radius B in
+  well_formed_runner from to A && well_formed_runner from to B && le from t && le t to &&
+  has_at A t x pa && has_at B t y pb && le 0 s && le (dotq (subq x y) (subq x y)) (s * s).
+Theorem check_close_sound : forall d from to A B t x y pa pb, check_close d from to A B t x y pa pb = true ->
+  close (Q2R d) (Q2R from) (Q2R to) (rr A) (rr B).
+Proof.
+  intros d from to A B t x y pa pb H. unfold check_close in H. cbv zeta in H.
+  apply andb_prop in H. destruct H as [H Short]. apply andb_prop in H. destruct H as [H S0].
   apply andb_prop in H. destruct H as [H HB]. apply andb_prop in H. destruct H as [H HA].
-  apply andb_prop in H. destruct H as [H T1]. apply andb_prop in H. destruct H as [_ T0]. apply le_real in T0, T1.
+  apply andb_prop in H. destruct H as [H T1]. apply andb_prop in H. destruct H as [H T0].
+  apply andb_prop in H. destruct H as [WA WB]. apply le_real in T0, T1, Short, S0.
+  assert (Radius : forall r, well_formed_runner from to r = true -> (0 <= Q2R (radius r))%R).
+  { intros r W. unfold well_formed_runner in W. apply andb_prop in W. destruct W as [W _]. apply andb_prop in W.
+    destruct W as [_ L]. apply le_real in L. rewrite Q2R_zero in L. exact L. }
+  apply Radius in WA, WB.
   destruct (has_at_real _ _ _ _ HA) as (f & a & F1 & F2 & F3 & F4 & F5).
   destruct (has_at_real _ _ _ _ HB) as (g & b & G1 & G2 & G3 & G4 & G5).
-  exists (Q2R t), f, g, a, b. rewrite F5, G5. repeat (split; [auto; lra|]). reflexivity.
+  exists (Q2R t), f, g, a, b. repeat (split; [auto; lra|]). intros u v U V. rewrite F5 in U. rewrite G5 in V.
+  cbn [rr radius] in U, V. rewrite Q2R_zero, !Q2R_minus in S0. rewrite Q2R_dot, rv_sub, Q2R_mult, !Q2R_minus in Short.
+  assert (M : near (Q2R d - Q2R (radius A) - Q2R (radius B)) (sub (rv x) (rv y))) by exact Short.
+  pose proof (near_add _ _ _ _ WA S0 U M) as N1.
+  assert (P1 : (0 <= Q2R (radius A) + (Q2R d - Q2R (radius A) - Q2R (radius B)))%R) by lra.
+  pose proof (near_add _ _ _ _ P1 WB N1 (near_opp _ _ V)) as N2.
+  replace (Q2R d) with (Q2R (radius A) + (Q2R d - Q2R (radius A) - Q2R (radius B)) + Q2R (radius B))%R by ring.
+  replace (sub u v) with (add (add (sub u (rv x)) (sub (rv x) (rv y))) (opp (sub v (rv y)))); [exact N2|].
+  generalize (rv x) (rv y). clear. intros x y. veq.
 Qed.

@@ -74,9 +74,9 @@ let answer line =
       told (C.check_contained agent obstacle proof)
         (Printf.sprintf "inside: each point of the agent {%s} is in the obstacle {%s}" (say_body agent) (say_body obstacle))
     | Reader.Meeting m ->
-      told Reader.(C.check_meet m.start m.finish m.one m.other m.time m.point m.where_one m.where_other)
-        Reader.(Printf.sprintf "meet: at a time from %s to %s a point of %s is one of %s" (say_number m.start) (say_number m.finish)
-                  (say_runner m.one) (say_runner m.other))
+      told Reader.(C.check_close m.no_farther m.start m.finish m.one m.other m.time m.point_one m.point_other m.where_one m.where_other)
+        Reader.(Printf.sprintf "%s: at a time from %s to %s a point of %s and one of %s are no farther apart than %s, wherever in the tubes"
+                  m.says (say_number m.start) (say_number m.finish) (say_runner m.one) (say_runner m.other) (say_number m.no_farther))
     | Reader.Run (claim, proofs) -> let proofs = proofs () in told (C.check_run_claim claim proofs) (say_run claim)
   with
   | answer -> answer

@@ -305,8 +305,8 @@ type statement =
   | Run of C.run_claim * (unit -> C.run_proof list)
   | Meeting of meeting
 and meeting = {
-  start : C.q; finish : C.q; one : C.q C.runner; other : C.q C.runner;
-  time : C.q; point : C.q C.vec; where_one : C.place; where_other : C.place;
+  says : string; no_farther : C.q; start : C.q; finish : C.q; one : C.q C.runner; other : C.q C.runner;
+  time : C.q; point_one : C.q C.vec; point_other : C.q C.vec; where_one : C.place; where_other : C.place;
 }
 
 let identity read = match optional "id" read with
@@ -486,8 +486,9 @@ let run claim proof_read =
     List.map (fun name -> run_proof (field name proofs)) names in
   Run (claim, proofs)
 
-let meeting claim proof_read =
-  let read = fields "the claim" ["says"; "from"; "to"; "bodies"; "tracks"; "pair"] ["id"] claim in
+(* `near`, or `meet`: with the distance 0. *)
+let meeting says claim proof_read =
+  let read = fields "the claim" (["says"; "from"; "to"; "bodies"; "tracks"; "pair"] @ (if says = "near" then ["by"] else [])) ["id"] claim in
   let all = Array.of_list (runners read) in
   let i, j = match items (field "pair" read) with
     | [i; j] -> (index (Array.length all) i, index (Array.length all) j)
@@ -495,18 +496,23 @@ let meeting claim proof_read =
   form (i < j) "a pair is [i, j] with i < j";
   let start = number (field "from" read) and finish = number (field "to" read) in
   if not (Q.lt start finish) then raise (Refused "from < to");
-  let more = ["agent_point"; "obstacle_point"; "agent_depth"; "obstacle_depth"] in
-  (match proof_read with
-   | Object given when List.exists (fun name -> List.mem_assoc name given) more -> unknown "points at a depth"
-   | _ -> ());
-  let whole = fields "the proof" ["rule"; "time"; "point"] members proof_read in
-  if text "rule" whole <> "point" then raise (Refused "point is the rule for meet");
-  let one = all.(i) and other = all.(j) in
-  List.iter (fun r -> if Z.sign r.C.radius.C.qnum <> 0 then raise (Refused "radius = 0")) [one; other];
+  let points = ["point"; "agent_point"; "obstacle_point"] and depths = ["agent_depth"; "obstacle_depth"] in
+  let whole = fields "the proof" ["rule"; "time"] (points @ depths @ members) proof_read in
+  if List.exists (fun name -> List.mem_assoc name whole) depths then unknown "points at a depth";
+  if text "rule" whole <> "point" then raise (Refused ("point is the rule for " ^ says));
+  let one = all.(i) and other = all.(j) and time = rational (number (field "time" whole)) in
   let where_one, where_other = where { agent_pieces = List.length one.C.its_body; obstacle_pieces = List.length other.C.its_body;
                                        by = false; moving_w = origin } whole in
-  Meeting { start = rational start; finish = rational finish; one; other; time = rational (number (field "time" whole));
-            point = vector_of (field "point" whole); where_one; where_other }
+  let point who runner its_place = match optional (who ^ "_point") whole, optional "point" whole with
+    | Some x, _ | None, Some x -> vector_of x
+    | None, None ->
+      form (its_place.C.weights <> []) (who ^ ": a point or weights are missing");
+      (match C.means_at runner time its_place with
+       | x :: _ -> x
+       | [] -> raise (Refused (who ^ ": weights are of corners, at a time of the track"))) in
+  Meeting { says; no_farther = rational (match optional "by" read with Some d -> not_negative d | None -> Q.zero);
+            start = rational start; finish = rational finish; one; other; time;
+            point_one = point "agent" one where_one; point_other = point "obstacle" other where_other; where_one; where_other }
 
 let rec fit_proof pieces value : C.fit_proof =
   match value with
@@ -541,9 +547,9 @@ let statement value =
   let found = match says with
     | "out" | "in" | "on" | "disjoint" | "overlapping" | "touching" -> verdict says claim (field "proof" read)
     | "apart" -> run claim (field "proof" read)
-    | "meet" -> meeting claim (field "proof" read)
+    | "meet" | "near" -> meeting says claim (field "proof" read)
     | "inside" -> fit claim (field "proof" read)
-    | "depends" | "near" | "passed" | "stays" -> unknown ("the claim " ^ says)
+    | "depends" | "passed" | "stays" -> unknown ("the claim " ^ says)
     | _ -> malformed ("an unknown claim: " ^ says) in
   (match answer with
    | Some members ->

@@ -2,6 +2,7 @@
 """vericone-check is built in a temporary folder and held against fractions: `python3 -m pytest tests/checker_coq -s`.
 
 Skipped where Coq, OCaml or Zarith is not installed (checker/coq/packages.txt)."""
+import importlib.util
 import json
 import os
 import random
@@ -227,6 +228,34 @@ def test_a_map_held_by_boxes(check, tmp_path):
     python = subprocess.run([sys.executable, ROOT / "checker" / "vericone_check.py", tmp_path / "lines"], capture_output=True, text=True, check=False)
     for said in (check(lines)[1], [line.split(": ", 2)[2] for line in python.stdout.splitlines()]):
         assert [one.startswith("accepted: ") for one in said] == [True] + [False] * len(bad), said
+
+
+def test_what_readers_of_the_other_checker_tried(check):
+    """The false certificates of tests/checker: none is accepted here either."""
+    there = importlib.util.spec_from_file_location("false_certificates", ROOT / "tests" / "checker" / "false_certificates.py")
+    false = importlib.util.module_from_spec(there)
+    there.loader.exec_module(false)
+    page = (ROOT / "docs" / "reference" / "certificates.md").read_text(encoding="utf-8")
+    examples = [json.loads(block) for block in re.findall(r"```json\n(.*?)```", page, flags=re.S)]
+    lines, tried = [], []
+    for (rule, says, *which), path, value in false.FALSE:
+        one = [x for x in examples if x["proof"]["rule"] == rule and says in (None, x["claim"]["says"])][which[0] if which else 0]
+        bad = json.loads(json.dumps(one))
+        place = bad
+        for key in path[:-1]:
+            place = place[key]
+        if value is false.DROP:
+            del place[path[-1]]
+        elif path[-1] is None:
+            place.append(value)
+        else:
+            place[path[-1]] = value
+        lines.append(json.dumps(bad))
+        tried.append((rule, says, path, value))
+    answers = check(lines)[1]
+    assert len(answers) == len(tried) > 400
+    assert [bad for bad, said in zip(tried, answers) if said.startswith("accepted: ")] == []
+    assert sum(said.startswith("refused") for said in answers) > 90
 
 
 def test_noise_is_no_certificate(check):
