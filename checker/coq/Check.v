@@ -1,5 +1,5 @@
 (* The checker of verdicts and its theorem: what it accepts is true. *)
-From Vericone Require Export Dents.
+From Vericone Require Export Boxes.
 Open Scope Q_scope.
 
 Inductive claim :=
@@ -29,7 +29,8 @@ Inductive proof :=
   | Groups (of_agent : bool) (runs : list (Z * Z)) (proofs : list proof)
   | Times (cuts : list Q) (proofs : list proof)
   | Forms (of_a of_b : list Q) (products : list (factor * factor * Q))
-  | Halves (n : vec Q) (at_ : Q) (below_it above_it : proof).
+  | Halves (n : vec Q) (at_ : Q) (below_it above_it : proof)
+  | Cover (of_agent : bool) (boxes : list (vec Q * vec Q)) (runs : list (Z * Z)) (p : proof).
 
 (* Pieces with their numbers; what an enclosing Groups has left of them. *)
 Definition group := list (Z * convex Q).
@@ -160,6 +161,18 @@ Proof.
   intros x X. rewrite <- S in X. destruct (in_share _ _ _ X) as (a & A & XA). apply (deal_part _ _ _ _ _ _ E A XA).
 Qed.
 
+(* Boxes that stand for the pieces that they hold. *)
+Definition covers (g : group) (b : vec Q * vec Q) : bool := forallb (fun c => in_box (snd c) (fst b) (snd b)) g.
+Definition box_of (b : vec Q * vec Q) : convex Q := Box (fst b) (snd b).
+Lemma covered_real : forall runs boxes g c, in_groups covers runs boxes g = true -> In c g ->
+  exists k : Z * convex Q, In k (numbered 0 (map box_of boxes)) /\ forall x, inside (rc (snd c)) x -> inside (rc (snd k)) x.
+Proof.
+  intros runs boxes g c H I. destruct (in_groups_all _ _ _ _ _ c H I) as (s & b & X & B & F).
+  unfold covers in F. rewrite forallb_forall in F. specialize (F c X).
+  destruct (in_numbered _ (map box_of boxes) 0%Z (box_of b)) as [j J]; [apply in_map, B|].
+  exists (j, box_of b). split; [exact J|]. cbn [snd]. apply in_box_real, F.
+Qed.
+
 (* A horizon in parts. *)
 Fixpoint in_times (chk : horizon Q -> proof -> bool) (t0 : Q) (t1 : option Q) (cuts : list Q) (proofs : list proof) : bool :=
   match cuts, proofs with
@@ -265,6 +278,8 @@ Fixpoint check_out (fuel : nat) (d : Q) (v u : vec Q) (A B : group) (h : horizon
       | Groups true runs proofs => in_groups (fun g p => check_out fuel d v u g B h p) runs proofs A
       | Groups false runs proofs => in_groups (fun g p => check_out fuel d v u A g h p) runs proofs B
       | Times cuts proofs => in_times (fun h p => check_out fuel d v u A B h p) (from h) (until h) cuts proofs
+      | Cover true boxes runs p => in_groups covers runs boxes A && check_out fuel d v u (numbered 0 (map box_of boxes)) B h p
+      | Cover false boxes runs p => in_groups covers runs boxes B && check_out fuel d v u A (numbered 0 (map box_of boxes)) h p
       | Forms _ _ _ | Halves _ _ _ _ =>
           match A, B with [a], [b] => eq d 0 && dent_out fuel (snd a) (snd b) (subq v u) h [] p | _, _ => false end
       | _ => false
@@ -299,14 +314,18 @@ Proof.
     subst y. apply (dent_out_real _ _ _ _ _ _ _ D (sub x (scale t (rv u))) t). split; [exact T|]. split; [|split; [exact XB|constructor]].
     rewrite rv_sub. replace (sub (sub x (scale t (rv u))) (scale t (sub (rv v) (rv u)))) with (sub x (scale t (rv v)))
       by (generalize (rv v) (rv u); clear; veq). exact XA. }
-  destruct p as [n bounds ma mb|n t x pa pb|t x s pa pb|t prs pa pb|[] runs proofs|cuts proofs|ms ns ps|n s p q]; try discriminate H;
-    [..|exact (Dent H)|exact (Dent H)]; clear Dent.
+  destruct p as [n bounds ma mb|n t x pa pb|t x s pa pb|t prs pa pb|[] runs proofs|cuts proofs|ms ns ps|n s p q|[] boxes runs p]; try discriminate H;
+    [| | | |exact (Dent H)|exact (Dent H)| |]; clear Dent.
   - apply (plane_out_real _ _ _ _ _ _ _ _ _ _ _ _ H IA IB).
   - destruct (in_groups_all _ _ _ _ _ a H IA) as (s & p & X & _ & F). apply (IH _ _ _ _ _ _ _ F _ _ X IB).
   - destruct (in_groups_all _ _ _ _ _ b H IB) as (s & p & X & _ & F). apply (IH _ _ _ _ _ _ _ F _ _ IA X).
   - intros t x y T. destruct h as [t0 t1].
     apply (in_times_sound _ (fun t => inside_at (rc (snd a)) (rv v) t x -> inside_at (rc (snd b)) (rv u) t y ->
       (Q2R d * Q2R d < dot (sub x y) (sub x y))%R) (fun h p F t T => IH d v u A B h p F a b IA IB t x y T) _ _ _ _ H t T).
+  - apply andb_prop in H. destruct H as [H K]. destruct (covered_real _ _ _ _ H IA) as (k & Ik & S).
+    intros t x y T X. apply (IH _ _ _ _ _ _ _ K k b Ik IB t x y T), S, X.
+  - apply andb_prop in H. destruct H as [H K]. destruct (covered_real _ _ _ _ H IB) as (k & Ik & S).
+    intros t x y T X Y. apply (IH _ _ _ _ _ _ _ K a k IA Ik t x y T X), S, Y.
 Qed.
 
 (* Corners: of a box, of a ball of radius 0 too. *)
@@ -318,7 +337,6 @@ Definition corners (c : convex Q) : list (vec Q) :=
   | Ball p r => if eq r 0 then [p] else []
   | _ => []
   end.
-Definition ordered (lo hi : vec Q) := le (vx lo) (vx hi) && le (vy lo) (vy hi) && le (vz lo) (vz hi).
 Fixpoint well_formed_piece (c : convex Q) : bool :=
   match c with
   | Ellipsoid _ _ => true
@@ -329,11 +347,6 @@ Fixpoint well_formed_piece (c : convex Q) : bool :=
   | Cut c _ A _ => well_formed_piece c && eq (vy (r1 A)) (vx (r2 A)) && eq (vz (r1 A)) (vx (r3 A)) &&
       eq (vz (r2 A)) (vy (r3 A))
   end.
-
-Lemma hull_between : forall n l ps x, inside (Hull ps) x -> (forall p, In p ps -> (dot n p <= l)%R) -> (dot n x <= l)%R.
-Proof.
-  intros n l ps x (ws & L & W & T & ->) H. pose proof (mean_le n l ps ws L W H) as M. rewrite T in M. lra.
-Qed.
 
 Ltac ends := let p := fresh in let P := fresh in
   intros p P; repeat (destruct P as [<-|P]; [cbn; lra|]); destruct P.
@@ -456,7 +469,7 @@ Lemma check_on_real : forall fuel v u A B h p, check_on fuel v u A B h p = true 
 Proof.
   induction fuel as [|fuel IH]; intros v u A B h p H; [discriminate H|].
   cbn [check_on] in H. destruct (touches (S fuel) p) eqn:T.
-  - destruct p as [n bounds ma mb|n t x pa pb|t x s pa pb|t prs pa pb|[] runs proofs|cuts proofs|ms ns ps|n s p q]; try discriminate H.
+  - destruct p as [n bounds ma mb|n t x pa pb|t x s pa pb|t prs pa pb|[] runs proofs|cuts proofs|ms ns ps|n s p q|s boxes runs p]; try discriminate H.
     + apply touch_on_real in H. destruct H as [C P]. split; [intros _; exact C|exact P].
     + split.
       * intros _. cbn [touches] in T. apply existsb_exists in T. destruct T as (p & P & T).
@@ -589,7 +602,7 @@ Proof. intros k c H. apply in_map_iff in H. destruct H as ([j d] & <- & H). appl
 
 Lemma check_in_real : forall k p, check_in k p = true -> in_cone (rk k).
 Proof.
-  intros k p H. destruct p as [n bounds ma mb|n t x pa pb|t x s pa pb|t prs pa pb|s runs proofs|cuts proofs|ms ns ps|n s p q];
+  intros k p H. destruct p as [n bounds ma mb|n t x pa pb|t x s pa pb|t prs pa pb|s runs proofs|cuts proofs|ms ns ps|n s p q|s boxes runs p];
     try discriminate H.
   - cbn in H. apply andb_prop in H. destruct H as [H MB]. apply andb_prop in H. destruct H as [H MA].
     apply andb_prop in H. destruct H as [T0 T]. apply le_real in T0. rewrite Q2R_zero in T0.

@@ -236,6 +236,13 @@ let multipliers who read = Option.map numbers (optional (who ^ "_multipliers") r
 let of_agent read = match text "of" read with
   | "agent" -> true | "obstacle" -> false | _ -> malformed "`of` is the agent or the obstacle"
 
+(* Boxes that hold pieces. *)
+let held value =
+  let box ends = match items ends with
+    | [low; high] -> (vector_of low, vector_of high)
+    | _ -> malformed "a box has two ends" in
+  List.map box (items value)
+
 let rec proof sides value : C.proof =
   let rule = match value with
     | Object m -> (match List.assoc_opt "rule" m with Some (Text t) -> t | _ -> malformed "a proof must have a rule")
@@ -287,7 +294,10 @@ let rec proof sides value : C.proof =
     let read = read ["normal"; "at"; "below"; "above"] [] in
     let half name = proof sides (field name read) in
     C.Halves (vector_of (field "normal" read), rational (number (field "at" read)), half "below", half "above")
-  | "octants" | "errors" | "vertices" | "cover" -> unknown ("the rule " ^ rule)
+  | "cover" ->
+    let read = read ["of"; "boxes"; "runs"; "proof"] [] in
+    C.Cover (of_agent read, held (field "boxes" read), runs (field "runs" read), proof sides (field "proof" read))
+  | "octants" | "errors" | "vertices" -> unknown ("the rule " ^ rule)
   | _ -> malformed ("an unknown rule: " ^ rule)
 
 and runs value =
@@ -444,10 +454,7 @@ let rec run_proof value : C.run_proof =
     C.PartsOfTime (cuts, List.map run_proof proofs)
   | "cover" ->
     let read = fields "the rule cover" ["rule"; "of"; "boxes"; "runs"; "proof"] [] value in
-    let box ends = match items ends with
-      | [low; high] -> (vector_of low, vector_of high)
-      | _ -> malformed "a box has two ends" in
-    C.Covered (of_agent read, List.map box (items (field "boxes" read)), runs (field "runs" read), run_proof (field "proof" read))
+    C.Covered (of_agent read, held (field "boxes" read), runs (field "runs" read), run_proof (field "proof" read))
   | _ -> raise (Refused (rule ^ " is a rule for apart"))
 
 (* The bodies on their tracks. *)
