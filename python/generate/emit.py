@@ -165,7 +165,8 @@ class Emitter:
                 passed.append(variable)
             elif what == "class" and a.type.reference in ("", "&"):
                 if a.default is None:
-                    lines.append(f"const {text}& {variable} = g.object<{text}>({i});")
+                    constant = "" if a.type.reference == "&" and not a.type.const else "const "
+                    lines.append(f"{constant}{text}& {variable} = g.object<{text}>({i});")
                 else:
                     lines.append(f"std::optional<{text}> {variable}d;")
                     lines.append(f"const {text}& {variable} = g.has({i}) ? g.object<{text}>({i}) : {variable}d.emplace({self.default(call, a, record)});")

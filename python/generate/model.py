@@ -470,7 +470,8 @@ class Model:
         if kind.reference == "*" and not kind.const:
             return "asked" if kind.name in rules.ASKED else "memory"
         if kind.reference == "&" and not kind.const:
-            return "changed"
+            record = self.record(kind) if self.kind(kind) == "class" else None
+            return "value" if record and record.machine else "changed"  # machines are not copied
         if kind.name == "Eigen::Ref" and not kind.arguments[0].const and not kind.const:
             return "changed"
         if kind.name == "std::span" and not kind.arguments[0].const and not full.startswith("vericone::never"):

@@ -8,13 +8,14 @@ import re
 # Headers below these folders are in these modules; the first that fits.
 MODULES = [
     ("geometry/files", "_files"), ("geometry/octomap", "_octomap"), ("geometry/fitting", "_fitting"),
-    ("geometry/lidar", "_lidar"), ("geometry", "_core"), ("cones", "_core"), ("guidance", "_core"),
+    ("geometry/lidar", "_lidar"), ("geometry", "_core"), ("cones", "_core"),
+    ("guidance/swarm", "_swarm"), ("guidance/ships", "_swarm"), ("guidance", "_core"),
     ("scenes/fit", "_fitting"), ("scenes/scan", "_lidar"), ("scenes/pursuits", "_vision"), ("scenes", "_files"), ("vision", "_vision"),
     ("verify", "_verify"),
 ]
 # Where the public headers are, in folders named include.
 FOLDERS = ["geometry", "geometry/files", "geometry/octomap", "geometry/fitting", "geometry/lidar", "cones", "guidance",
-           "guidance/simulation", "guidance/vehicles", "scenes", "scenes/work", "scenes/scenarios", "scenes/fit", "scenes/scan", "scenes/pursuits",
+           "guidance/simulation", "guidance/vehicles", "guidance/swarm", "guidance/ships", "scenes", "scenes/work", "scenes/scenarios", "scenes/fit", "scenes/scan", "scenes/pursuits",
            "vision", "vision/scene", "vision/footage", "vision/pursuit"]
 # Headers whose functions may take one or many.
 MANY_FOLDERS = ("geometry/include", "cones/include", "guidance/include")
@@ -90,11 +91,13 @@ LONG: set[str] = {f"{space}::{name}".removeprefix("::") for space, names in {
     "octomap": "obstacle_boxes read_octree",
     "fitting": "check enclose fit hull_to_scan scan_to_hull volume enclosed_volume",
     "lidar": "MeshScene::MeshScene fuse raster scan spinning visible_part",
+    "ships": "sail",
     "scanning": "look read_scan_scene scan_and_study study write_scan",
     "scenario": "campaign_rows fly_campaign read_scenario read_tracks scenario_of_text tracks_of_text write_run",
     "scenes": "read_body read_scene scene_of_text write_body write_scene",
     "simulation": "Arc::Arc certify fitted_track greatest Track::advance Vehicle::advance curves_of fly_trial largest_current prove prove_passage "
                   "reach run_tables simulate",
+    "swarm": "Swarm::Swarm Swarm::step fly start_amid start_of",
     "vision": "Image::Image Reader::next Scene::Scene Scene::render Tracker::start Tracker::step VideoWriter::add "
               "VideoWriter::close draw_sighting grey_of open_footage pursue read_picture read_pursuit write_picture",
 }.items() for name in names.split()}

@@ -14,7 +14,7 @@ from vericone._root import *  # noqa: F401,F403
 
 # Loaded when they are first asked for.
 _MODULES = ("exact", "files", "fits", "fitting", "guidance", "lidar", "montecarlo", "octomap", "plot", "scanning",
-            "scenario", "scenes", "simulation", "vehicles", "vision", "work")
+            "scenario", "scenes", "ships", "simulation", "swarm", "vehicles", "vision", "work")
 _LATER = {"__version__": "_version", "many": "_many", "Many": "_many", **dict.fromkeys(
     ("Campaign", "Scanned", "as_frame", "campaign", "fit", "load", "read_scenario", "read_scene", "read_table", "run_tables", "scan",
      "simulate", "units", "write_scene"), "_runs")}

@@ -17,6 +17,7 @@ PRINTED = {
     "scene_files": "refused: agent.semi_axes[1]\n",
     "own_law": "avoided: ",
     "own_pilot": "mine and law avoided: ",
+    "swarm": "0 pairs touched, 0 undecided; 11 of 11 arrived\n",
     "plan_by_gradient": "m or more, proved\n",
 }
 

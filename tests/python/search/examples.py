@@ -607,6 +607,45 @@ def campaigns(ask: Ask) -> None:
     ask("montecarlo.violations", ask("montecarlo.summarise", [row], flown))
 
 
+def swarm(ask: Ask) -> None:
+    s = v.swarm
+    balls = [s.Solid(), ask("swarm.Solid.ball", 1.5), s.Solid(half=[3, 1, 1])]
+    each(ask, balls[2], "reach")
+    for nearest in (s.Nearest.in_shape, s.Nearest.in_speed):
+        ask("swarm.reciprocal_plane", balls[0], balls[1], [9, 1, 0], [1, 0, 0], 20, nearest)
+    ask("swarm.nearest_velocity", [s.VelocityHalfSpace(normal=[0, 1, 0], offset=0.5)], 2, [1, 0, 0])
+    agents = [s.Agent(body=balls[1], position=[x, 0, 0], goals=[[-x, 0.1, 0]]) for x in (-9, 9)]
+    wall = [s.Obstacle(body=s.Solid(half=[1, 1, 1], box=True), position=[0, 9, 0])]
+    flying = ask("swarm.Swarm", agents, wall, s.SwarmOptions())
+    ask("swarm.SwarmOptions.published")
+    ask("swarm.Swarm.step", flying)
+    for name in ("time", "agents", "obstacles", "flown", "counts", "options", "heading"):
+        ask(f"swarm.Swarm.{name}", flying)
+    ask("swarm.fly", flying, s.FlightOptions(duration=1))
+    ask("swarm.start_of", ask("swarm.start_names")[0], 5, 1)
+    room = [s.Obstacle(body=s.Solid(half=np.where(np.eye(3)[k] > 0, 0.1, 9), box=True), position=9.0 * side * np.eye(3)[k])
+            for k in range(3) for side in (-1, 1)]
+    ask("swarm.start_amid", room, 1, 1)
+    ask("swarm.start_of", v.scenario.scenario_of_text(SCENARIO_OF_AGENTS, "agents"))
+
+
+def ships(ask: Ask) -> None:
+    s = v.ships
+    east, north = s.Sighting(velocity=[6, 0]), s.Sighting(position=[4000, -4000], velocity=[0, 6], ahead=[0, 1])
+    for name in ("closest_approach", "classify"):
+        ask(f"ships.{name}", east, north)
+    ask("ships.compare_approach", east, north, 500)
+    ask("ships.share_of_effort", s.Encounter.head_on)
+    for name in ("fujii", "coldwell", "coldwell_overtaking"):
+        ask(f"ships.Domain.{name}", 150)
+    domain = ask("ships.Domain.goodwin")
+    about = ask("ships.Domain.about", domain, [0, 0], 0.5)
+    each(ask, domain, "reach")
+    ask("ships.pass_with", s.Side.port, v.Ellipse(), about.translated([9000, 0]), [0, 6])
+    ask("ships.encounter_names")
+    ask("ships.Voyage.kept", ask("ships.sail", ask("ships.ships_of", "imazu-01"), s.FleetOptions(), s.VoyageOptions(duration=60)))
+
+
 def octomap(ask: Ask) -> None:
     """A map of two cells."""
     file = Path.cwd() / "two.bt"
@@ -710,7 +749,19 @@ agent_velocity: [1, 0, 0]
 lidars:
   - {position: [0.2, 0, 0], towards: [1, 0, 0.1], beams: {rows: 16, columns: 16, horizontal: 0.8, vertical: 0.8}}
 """
+SCENARIO_OF_AGENTS = """
+name: agents
+duration: 9
+step: 0.1
+bodies:
+  - name: a
+    shape: {semi_axes: [1, 1, 1]}
+    position: [0, 0, 0]
+    velocity: [0, 0, 0]
+    pilot: {law: clearance, goals: [{point: [9, 0, 0]}]}
+"""
 # Why no call is answered by an overload: (name, its index).
 UNREACHED: dict[tuple[str, int], str] = {}
 ALL = (geometry, bodies, numbers, predicates, cones, questions, exact, numbers_of_bodies, guidance, laws, words, files, scenes, fitting,
-       vehicles, motions, runs, tracks_of_others, campaigns, octomap, lidar, scanning, vision, work, pursuits)
+       vehicles, motions, runs, tracks_of_others, campaigns, swarm, ships, octomap,
+       lidar, scanning, vision, work, pursuits)

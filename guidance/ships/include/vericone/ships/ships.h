@@ -58,8 +58,8 @@ enum class Encounter : std::uint8_t {
 /// ns; a few us where rounding cannot decide.
 [[nodiscard]] Encounter classify(const Sighting& a, const Sighting& b);
 
-/// Of the effort to keep clear, rules 14 to 17: 1 of who gives way, in head-on and doubtful encounters of
-/// both; 0 of who stands on.
+/// The part of the effort to keep clear, without unit, by rules 14 to 17: 1 of who gives way, in head-on and
+/// doubtful encounters of both; 0 of who stands on.
 [[nodiscard]] double share_of_effort(Encounter encounter);
 
 /// The elliptic water about a ship that others are to keep out of.
