@@ -99,7 +99,10 @@ const char* to_string(NavigatorStatus status) {
 }
 
 Navigator::Body Navigator::body_of(const BodyState& other, bool planar, double swerves) const {
-  const Placed* placed = other.shape.placed();
+  // A hull too: the ellipsoid about a wall holds much of the room before it.
+  const std::optional<Placed> hull =
+      other.shape.hull() && rigid(other) ? std::optional(other.shape.as_placed()) : std::nullopt;
+  const Placed* placed = hull ? &*hull : other.shape.placed();
   const bool as_it_is = placed && rigid(other) && !placed->body.quadric();
   Body body{as_it_is ? ball_about(*placed) : seen(other), other.velocity};
   body.reach =
@@ -226,6 +229,10 @@ namespace {
 void require_course(const BodyState& body) {
   require_finite(body.position, "position", " (m)");
   require_finite(body.velocity, "velocity", " (m/s)");
+  constexpr double kMost = 1e150;  // squares of what is larger overflow
+  for (const auto& [x, field] : {std::pair(body.position, "position"), {body.velocity, "velocity"}})
+    if (const double most = x.lpNorm<Eigen::Infinity>(); most > kMost)
+      throw InputError(field, to_text(most), "at most 1e150 (m, m/s)");
 }
 
 void require_corridor(const Destination& destination, bool longitudinal) {

@@ -269,6 +269,27 @@ TEST(Navigator, SaysThatItCannotAvoidWhateverIsRequired) {
   }
 }
 
+// A thick slab below: the ellipsoid about it holds the agent.
+TEST(Navigator, AHullIsJudgedAsItIs) {
+  std::vector<Vector3d> corners;
+  for (const double x : {-200.0, 200.0})
+    for (const double y : {-200.0, 200.0})
+      for (const double z : {-100.0, -3.0}) corners.emplace_back(x, y, z);
+  const BodyState agent = body(Ellipsoid::from_axes({0, 0, 0}, {1, 1, 1}), {10, 0, -2});
+  BodyState plain = placed(Placed(vericone::Body()), {0, 0, 0}), part = plain;
+  plain.shape = HullBody(corners);
+  part.shape = Placed(vericone::Body(Assembly::polyhedra({HullBody(corners)})));
+  const auto said = [&](const BodyState& other) {
+    Navigator navigator({.required = 0.5, .most = 15});
+    return navigator.step(agent, {&other, 1}, std::nullopt, 0, 0.02);
+  };
+  const NavigatorStep of_hull = said(plain), of_part = said(part);
+  EXPECT_EQ(of_hull.status, NavigatorStatus::avoiding);
+  EXPECT_EQ(of_hull.status, of_part.status);
+  EXPECT_GE(of_hull.least, 0.5 - 1e-6);
+  EXPECT_NEAR(of_hull.least, of_part.least, 1e-6);
+}
+
 // On a straight course: the miss distance of the pair as it is; on a circle the least distance there.
 TEST(Navigator, LeastIsTheMissOfMeshesMapsAndUnions) {
   RandomBodies random(76);
@@ -411,6 +432,18 @@ TEST(Navigator, NamesWhatItIsNotGivenRight) {
   EXPECT_EQ(refused({.required = 0, .beyond = 0, .range = NAN}, {}), "range");
   EXPECT_EQ(refused({}, {.most = 1, .velocity = {0, NAN, 0}}), "destination.velocity[1]");
   EXPECT_EQ(refused({}, {.most = 1}), "nothing");
+  const auto flown = [](const Vector3d& position, double speed) {
+    try {
+      BodyState agent = body(Ellipsoid::from_axes({0, 0, 0}, {1, 1, 1}), {speed, 0, 0});
+      agent.position = position;
+      static_cast<void>(Navigator(NavigatorOptions{}).step(agent, {}, std::nullopt, 0, 0.1));
+    } catch (const InputError& error) {
+      return error.field();
+    }
+    return std::string("nothing");
+  };
+  EXPECT_EQ(flown({0, 0, 0}, 1e155), "velocity");
+  EXPECT_EQ(flown({0, 1e155, 0}, 1), "position");
 }
 
 }  // namespace

@@ -96,6 +96,16 @@ TEST(ShipMotion, TracksAreWithinTheirErrorOfIt) {
   EXPECT_GT(largest, 0.05);  // the bound is of the size of what it bounds
 }
 
+// Speeds whose stop is a whole number of pieces, but for rounding.
+TEST(ShipMotion, AStopHasNoPieceThatIsARounding) {
+  const Handling handling;
+  for (int k = 1; k <= 200; ++k) {
+    const std::vector<Piece> stop = stop_from(handling, {{0, 0}, 0, 0.1 * k, 0});
+    for (const Piece& piece : stop) EXPECT_GT(piece.seconds, 1e-3) << 0.1 * k;
+    EXPECT_NEAR(seconds_of(stop), 0.1 * k / handling.slower, 1e-9);
+  }
+}
+
 TEST(ShipMotion, AStopIsLeftAsItWasPlanned) {
   Random random(7, 0);
   const Handling handling;

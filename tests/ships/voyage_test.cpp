@@ -115,6 +115,7 @@ TEST(Voyages, RefuseWhatCannotBeSailed) {
   };
   refused("ships[1].speed", [](std::vector<Ship>& ships) { ships[1].speed = -1; });
   refused("ships[0].handling.lag", [](std::vector<Ship>& ships) { ships[0].handling.lag = 0; });
+  refused("ships[0].handling.slower", [](std::vector<Ship>& ships) { ships[0].handling.slower = 1e-9; });
   refused("ships[0].goal", [](std::vector<Ship>& ships) { ships[0].goal = ships[0].position; });
   refused("ships[1]", [](std::vector<Ship>& ships) { ships[1].position = ships[0].position; });
   refused("ships", [](std::vector<Ship>& ships) { ships.clear(); });

@@ -107,6 +107,15 @@ TEST(Proof, GrazingWithinThePaddingIsUndecided) {
   }
 }
 
+// At 1e12 m places are known to 1e-4 m. In fact they touch after 10 s; in doubles A never moves.
+TEST(Proof, FarFromTheOriginRoundingIsNoDistance) {
+  for (const double far : {1e9, 1e12}) {
+    const Track a = straight(ellipsoid({1, 1, 1}), {far, 0, 0}, {1e-6, 0, 0}, 30);
+    const Track b = straight(ellipsoid({0.99999, 1, 1}), {far + 2, 0, 0}, {0, 0, 0}, 30);
+    EXPECT_NE(prove(a, b, 0, 30).verdict, ProofVerdict::avoided) << far;
+  }
+}
+
 TEST(Proof, DriftOfAConstantCurrent) {
   // Balls that pass at t = 4 with a gap of 0.5, carried towards each other by at most 4 C until then.
   const Track a = straight(ball(1), {-20, 0, 0}, {5, 0, 0}, 10),

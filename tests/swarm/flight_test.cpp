@@ -5,6 +5,7 @@
 #include <vericone/geometry/error.h>
 #include <vericone/internal/cones/random_engagement.h>
 #include <vericone/swarm/swarm.h>
+#include <vericone/testing/random_bodies.h>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -291,6 +292,59 @@ TEST(SwarmFlight, LeastDistancesAreOfPairsThatFlyApart) {
         fly(swarm, options);
       },
       InputError);
+}
+
+// Two balls at rest, whose distance a square root tells.
+TEST(SwarmFlight, LeastDistancesAreNoMoreThanTheyAre) {
+  testing::RandomBodies random(12);
+  for (int i = 0; i < 20; ++i) {
+    std::vector<Agent> agents(2);
+    agents[0].body = Solid::ball(0.3);
+    agents[1].body = Solid::ball(random.uniform(0.2, 0.4));
+    agents[1].position = random.uniform(4, 6) * random.direction();
+    for (Agent& agent : agents) agent.goals = {agent.position};
+    const long double x = agents[1].position.x(), y = agents[1].position.y(), z = agents[1].position.z();
+    const long double apart =
+        std::sqrt(x * x + y * y + z * z) - agents[0].body.half.x() - agents[1].body.half.x();
+    Swarm swarm(agents, {}, {});
+    FlightOptions options;
+    options.duration = 1;
+    const SwarmFlight flight = fly(swarm, options);
+    EXPECT_LE(flight.least_distance, apart);
+    EXPECT_GE(flight.least_distance, apart - 1e-6L);
+  }
+}
+
+// A step that is no binary fraction: after 5,000 s the time is known to 1e-12 s, and 10 m/s is fast.
+TEST(SwarmFlight, IsProvedHoweverLateItPassesTheOrigin) {
+  std::vector<Agent> agents(1);
+  agents[0].body = Solid::ball(0.3);
+  agents[0].position = {-50000, 0.01, 0};
+  agents[0].goals = {Vector3d(100, 0, 0)};
+  agents[0].wished = agents[0].fastest = 10;
+  agents[0].most = 5;
+  Obstacle ball;
+  ball.body = Solid::ball(0.5);
+  ball.position = {0, 2.5, 0};
+  SwarmOptions fine;
+  fine.step = 0.1;
+  Swarm swarm(agents, {ball}, fine);
+  FlightOptions options;
+  options.duration = 6000;
+  options.sample = 1000;
+  const SwarmFlight flight = fly(swarm, options);
+  EXPECT_TRUE(flight.touched.empty() && flight.undecided.empty());
+  EXPECT_NEAR(flight.least_distance, 1.7, 0.1);
+}
+
+TEST(SwarmFlight, LastsNoLongerThanItMay) {
+  const Start start = start_of("circle", 5, 1);
+  SwarmOptions coarse;
+  coarse.step = 0.4;
+  Swarm swarm(start.agents, {}, coarse);
+  FlightOptions options;
+  options.duration = 1;
+  EXPECT_NEAR(fly(swarm, options).end, 0.8, 1e-9);
 }
 
 TEST(SwarmFlight, RefusesTimesThatAreNone) {

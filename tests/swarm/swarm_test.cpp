@@ -272,6 +272,12 @@ TEST(Swarm, RefusesWhatItCannotFly) {
   bad[1].body.rotation.col(0) *= -1;
   EXPECT_EQ(refused(bad), "agents[1].body.rotation");
   bad = good;
+  bad[0].most = 5e-324;
+  EXPECT_EQ(refused(bad), "agents[0].most");
+  bad = good;
+  bad[0].body.half.x() = 1e6;
+  EXPECT_EQ(refused(bad), "agents[0].body.half[0]");
+  bad = good;
   bad[0].wished = 3;
   EXPECT_EQ(refused(bad), "agents[0].wished");
   bad = good;

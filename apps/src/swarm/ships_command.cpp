@@ -133,13 +133,13 @@ std::string text_of(const Json& summary, const Voyage& voyage) {
       << (summary["least_domain_distance"].is_null()
               ? std::string("\n")
               : std::string(all_kept ? ", " : "; of these ") + "no hull nearer to a domain than " +
-                    number("least_domain_distance") + " m: proved\n");
+                    at_least_text(summary["least_domain_distance"].get<double>(), 4) + " m: proved\n");
   for (const PairOfShips& pair : voyage.pairs)
     out << "          " << pair.a << " and " << pair.b << ": "
         << (pair.encounter == Encounter::none ? std::string("no risk") : to_string(pair.encounter)) << ", "
         << (pair.passed == Side::port ? "port to port, " : "starboard to starboard, ")
         << (pair.verdict == simulation::ProofVerdict::avoided
-                ? number_text(pair.least_domain_distance, 4) + " m"
+                ? at_least_text(pair.least_domain_distance, 4) + " m"
                 : std::string(simulation::to_string(pair.verdict)))
         << (pair.side_kept ? "" : ", the rules' side given up")
         << (pair.stand_on_acted ? ", who stands on had to act" : "") << '\n';

@@ -190,7 +190,8 @@ void print_flight(const Json& summary, std::ostream& out) {
       << "pairs     " << count("touched") << " touched, " << count("undecided") << " undecided, "
       << (summary["least_distance"].is_null()
               ? std::string("no others: proved\n")
-              : "all others apart by " + number("least_distance") + " m or more: proved\n")
+              : "all others apart by " + at_least_text(summary["least_distance"].get<double>(), 4) +
+                    " m or more: proved\n")
       << "arrived   " << count("arrived") << " of " << count("agents")
       << " within their reach of the last goal, "
       << (all ? "the last after " + number("last_arrival") : "in " + number("end")) << " s; paths "

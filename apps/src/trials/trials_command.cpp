@@ -22,6 +22,7 @@
 #include "commands.h"
 #include "input/stopwatch.h"
 #include "json/json_value.h"
+#include "output/number_text.h"
 #include "output/output_file.h"
 #include "output/output_options.h"
 #include "output/part.h"
@@ -313,10 +314,7 @@ int print_one(const TrialsOptions& o, const std::vector<Cell>& cells, std::ostre
     std::snprintf(line, sizeof line, "%-11s %-12s %-10s effort %.4g m/s", cell.level.name.c_str(),
                   to_string(cell.law), word_of(outcome).c_str(), outcome.effort);
     out << line;
-    if (avoided) {
-      std::snprintf(line, sizeof line, ", apart by %.4g m or more", outcome.least_distance);
-      out << line;
-    }
+    if (avoided) out << ", apart by " << at_least_text(outcome.least_distance, 4) << " m or more";
     out << '\n';
   }
   if (o.json) out << results.dump(1) << '\n';

@@ -58,7 +58,8 @@ void check(const Ship& ship, const std::string& name) {
   positive(ship.handling.radius, ".handling.radius", "a positive finite number (m)");
   positive(ship.handling.lag, ".handling.lag", "a positive finite number (m)");
   positive(ship.handling.faster, ".handling.faster", "a positive finite number (m/s^2)");
-  positive(ship.handling.slower, ".handling.slower", "a positive finite number (m/s^2)");
+  if (!(ship.handling.slower >= 1e-4 && std::isfinite(ship.handling.slower)))
+    refuse(name + ".handling.slower", ship.handling.slower, "at least 1e-4 (m/s^2)");
   positive(ship.domain.half.x(), ".domain.half[0]", "a positive finite number (m)");
   positive(ship.domain.half.y(), ".domain.half[1]", "a positive finite number (m)");
   positive(ship.wished, ".wished", "a positive finite number (m/s)");

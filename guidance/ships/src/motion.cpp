@@ -93,10 +93,12 @@ std::vector<Piece> stop_from(const Handling& handling, const State& state) {
   std::vector<Piece> pieces;
   for (State at = state; at.speed > 0;) {
     const double left = at.speed / handling.slower;
-    const Piece piece{at, {0, -handling.slower}, std::min(left, kStopPiece)};
+    // No last piece that is a rounding of the time.
+    const bool last = left <= kStopPiece * (1 + 1e-9);
+    const Piece piece{at, {0, -handling.slower}, last ? left : kStopPiece};
     pieces.push_back(piece);
     at = after(handling, piece, piece.seconds);
-    if (left <= kStopPiece) break;
+    if (last) break;
   }
   if (pieces.empty()) pieces.push_back({state, {0, 0}, kStopPiece});
   return pieces;

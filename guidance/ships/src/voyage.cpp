@@ -44,7 +44,7 @@ Voyage sail(const std::vector<Ship>& ships, const FleetOptions& options, const V
   found.path.assign(ships.size(), 0);
   found.samples.push_back(sample_of(fleet));
   std::size_t there = 0;
-  while (there < ships.size() && fleet.time() < voyage.duration - 0.5 * options.step) {
+  while (there < ships.size() && fleet.time() + options.step <= voyage.duration * (1 + 1e-9)) {
     fleet.step();
     for (std::size_t i = 0; i < ships.size(); ++i) {
       if (std::isfinite(found.arrived[i])) continue;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "bands/threats.h"
 
+#include <vericone/internal/geometry/rotation.h>
 #include <algorithm>
 
 namespace vericone::guidance::banding {
@@ -38,6 +39,9 @@ Placed swollen(const Placed& body, double radius) {
 
 Threats::Threats(const Placed& agent, std::span<const Intruder> intruders, double margin)
     : intruders_(intruders), margin_(margin) {
+  // Of those that are out of reach nobody asks later: is_upright() throws where a pose is none.
+  static_cast<void>(is_upright(agent.pose));
+  for (const Intruder& intruder : intruders) static_cast<void>(is_upright(intruder.body.pose));
   own_ = convex_parts(agent);
   for (const Intruder& intruder : intruders) {
     Kept& kept = kept_.emplace_back();

@@ -78,7 +78,9 @@ BlockProof::Ball BlockProof::swept(std::size_t i, double until) const {
 }
 
 BlockProof::Bound BlockProof::bound(std::size_t a, std::size_t b, double until) const {
-  return {proved_gap(way(a), way(b), from_, until, 4 * kPadding, kHalvings), a, b};
+  constexpr double kRounding = 4 * kPadding;
+  const double gap = proved_gap(way(a), way(b), from_, until, kRounding, kHalvings);
+  return {gap > 0 ? gap - kRounding : gap, a, b};
 }
 
 bool BlockProof::have_met(std::size_t a, std::size_t b) const {

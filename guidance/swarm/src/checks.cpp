@@ -18,8 +18,8 @@ namespace {
 
 void check(const Solid& body, const std::string& name) {
   for (int k = 0; k < 3; ++k)
-    if (!(body.half(k) > 0) || !std::isfinite(body.half(k)))
-      refuse(name + ".half[" + std::to_string(k) + "]", body.half(k), "a positive finite number (m)");
+    if (!(body.half(k) > 0) || body.half(k) > kFarthest || std::isnan(body.half(k)))
+      refuse(name + ".half[" + std::to_string(k) + "]", body.half(k), "positive, at most 1e5 (m)");
   if (!((body.rotation.transpose() * body.rotation - Eigen::Matrix3d::Identity()).norm() < 1e-12))
     throw InputError(name + ".rotation", "another matrix", "orthonormal to 1e-12");
   if (!(body.rotation.determinant() > 0))
@@ -48,6 +48,8 @@ void check(const Agent& agent, const std::string& name) {
     if (!(value > 0) || !std::isfinite(value)) refuse(name + field, value, "a positive finite number");
   if (!(agent.turning >= 0) || !std::isfinite(agent.turning))
     refuse(name + ".turning", agent.turning, "0 or a positive finite number (rad/s)");
+  if (!(agent.fastest * agent.fastest <= 2 * kFarthest * agent.most))
+    refuse(name + ".most", agent.most, "enough to stop within 1e5 m from `fastest`");
   if (!(agent.wished <= agent.fastest)) refuse(name + ".wished", agent.wished, "at most `fastest`");
 }
 

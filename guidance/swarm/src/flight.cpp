@@ -84,7 +84,7 @@ SwarmFlight fly(Swarm& swarm, const FlightOptions& options) {
     in_block = 0;
     flight.proving += seconds_since(start);
   };
-  while (there < count && swarm.time() < begin + options.duration - 0.5 * step) {
+  while (there < count && swarm.time() - begin + step <= options.duration * (1 + 1e-9)) {
     const double t = swarm.time();
     const auto start = std::chrono::steady_clock::now();
     swarm.step();

@@ -201,14 +201,17 @@ Start start_amid(std::vector<Obstacle> obstacles, std::size_t agents, std::uint6
   };
   const FreeSpace space(start.obstacles);
   std::vector<Vector3d> places;  // free ones, from which to choose starts and goals
-  const std::size_t tries = 2000 + 1000 * agents;
-  for (std::size_t k = 0; k < tries && places.size() < 12 * agents; ++k)
+  // Where fewer than one place in a thousand is free there is no room.
+  for (std::size_t k = 0; k < 2000 + 1000 * places.size() && places.size() < 12 * agents; ++k) {
+    checkpoint();
     if (const Vector3d x = any(); space.clear(x) && space.inside(x)) places.push_back(x);
+  }
   const auto apart = [&](const Vector3d& x, const auto& other) {
     return std::all_of(start.agents.begin(), start.agents.end(),
                        [&](const Agent& agent) { return (other(agent) - x).norm() >= 2 * kBall + kApart; });
   };
   for (std::size_t i = 0; i < places.size() && start.agents.size() < agents; ++i) {
+    checkpoint();
     if (!apart(places[i], [](const Agent& agent) { return agent.position; })) continue;
     for (std::size_t draw = 0; draw < 60; ++draw) {
       const Vector3d& goal =

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 #include <vericone/cones/pair.h>
 #include <vericone/geometry/error.h>
+#include <vericone/guidance/velocity_map.h>
 #include <vericone/testing/random_bodies.h>
 #include <Eigen/Geometry>
 #include <array>
@@ -416,6 +417,18 @@ TEST(Avoid, RefusesWhatIsNone) {
   EXPECT_EQ(refused([](Encounter& e) { e.options.climb = {3, 2}; }), "climb");
   EXPECT_EQ(refused([](Encounter& e) { e.options.lateral = 1; }), "longitudinal");
   EXPECT_EQ(refused([](Encounter&) {}), "nothing");
+  // Of bodies that are out of reach too.
+  const auto far = [](const Eigen::Matrix3d& rotation) {
+    return Intruder{Placed(Ellipsoid(), Pose{{0, 500, 0}, rotation}), Vector3d::Zero()};
+  };
+  Eigen::Matrix3d sheared = Eigen::Matrix3d::Identity();
+  sheared(0, 1) = 0.5;
+  for (const Eigen::Matrix3d& none : {Eigen::Matrix3d(600 * Eigen::Matrix3d::Identity()), sheared}) {
+    EXPECT_EQ(refused([&](Encounter& e) { e.others = {far(none)}; }), "pose.rotation");
+    EXPECT_EQ(refused([&](Encounter& e) { e.agent.pose.rotation = none; }), "pose.rotation");
+    const Intruder other = far(none);
+    EXPECT_THROW(static_cast<void>(velocity_map(Placed(Ellipsoid()), {&other, 1}, {})), InputError);
+  }
 }
 
 }  // namespace

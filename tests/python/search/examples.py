@@ -758,7 +758,7 @@ bodies:
     shape: {semi_axes: [1, 1, 1]}
     position: [0, 0, 0]
     velocity: [0, 0, 0]
-    pilot: {law: clearance, goals: [{point: [9, 0, 0]}]}
+    pilot: {law: clearance, most: 2, fastest: 2, goals: [{point: [9, 0, 0], most: 2}]}
 """
 # Why no call is answered by an overload: (name, its index).
 UNREACHED: dict[tuple[str, int], str] = {}

@@ -23,10 +23,10 @@ struct Ball {
 };
 
 Ball ball_about(const Track& track, const BodyState& body) {
-  const Placed* placed = body.shape.placed();
-  if (!placed) return {body.position, reach(track.shape())};
-  const Box bounds = placed->body.bounds();
-  return {placed->pose.to_world(bounds.center()), bounds.half_widths().norm() * (1 + 1e-12)};
+  if (!body.shape.placed() && !body.shape.hull()) return {body.position, reach(track.shape())};
+  const Placed placed = body.shape.as_placed();
+  const Box bounds = placed.body.bounds();
+  return {placed.pose.to_world(bounds.center()), bounds.half_widths().norm() * (1 + 1e-12)};
 }
 
 /// Stands for a point, which has no inside: m.

@@ -23,7 +23,7 @@ Vector3d variances(const Vector3d& deviations) {
 
 /// Buildings, maps and the like that do not move are known not to.
 bool stands(const guidance::BodyState& body) {
-  return body.shape.placed() && body.velocity.isZero(0) && body.omega.isZero(0);
+  return (body.shape.placed() || body.shape.hull()) && body.velocity.isZero(0) && body.omega.isZero(0);
 }
 
 /// Sums of steps fall short of periods and delays by roundings.

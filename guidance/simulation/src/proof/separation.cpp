@@ -34,7 +34,7 @@ class Separator {
     const double dt = piece.duration();
     // Positions are within |a| dt^2 / 8 of the chord, however the acceleration turns.
     deviation_ = chord_deviation(bounds_a_, bounds_b_, dt) * (1 + 1e-12);
-    rounding_ = 1e-14 * (from_.norm() + to_.norm());
+    rounding_ = 1e-14 * (from_.norm() + to_.norm()) + piece.from.rounding() + piece.to.rounding();
     // The support of a turning body is within this of the chord, on its upper side.
     bend_ = (a_.extent() * bend(bounds_a_, dt) + b_.extent() * bend(bounds_b_, dt)) * (1 + 1e-12);
     if (std::max(a_.angle(), b_.angle()) > 0 && std::isfinite(bend_)) {

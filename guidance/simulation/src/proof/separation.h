@@ -15,6 +15,8 @@ struct Moment {
   double t = 0;
   Motion a, b;
   Eigen::Vector3d between() const { return b.position - a.position; }
+  /// m: what rounding may take from where both are; far from the origin it is more than any padding.
+  double rounding() const { return 0x1p-50 * (a.position.norm() + b.position.norm()); }
 };
 
 /// Two tracks and what is known of them for all times.
