@@ -442,8 +442,8 @@ TEST(Navigator, NamesWhatItIsNotGivenRight) {
     }
     return std::string("nothing");
   };
-  EXPECT_EQ(flown({0, 0, 0}, 1e155), "velocity");
-  EXPECT_EQ(flown({0, 1e155, 0}, 1), "position");
+  EXPECT_EQ(flown({0, 0, 0}, 1e155), "agent.velocity");
+  EXPECT_EQ(flown({0, 1e155, 0}, 1), "agent.position");
 }
 
 }  // namespace
