@@ -92,6 +92,15 @@ TEST(Populations, NormalQuantilesAreThoseOfBoost) {
   }
 }
 
+TEST(Populations, ManyQuantilesAreThoseOfEach) {
+  std::vector<double> p(5000), x(p.size());
+  engagements::Random::fill(3, 0, 0, p);
+  p[7] = 0x1p-53;  // far out, and its mirror image
+  p[600] = 1 - 0x1p-53;
+  normal(10, 2)->quantiles(p, x.data());
+  for (std::size_t i = 0; i < p.size(); ++i) EXPECT_EQ(x[i], 10 + 2 * normal_quantile(p[i])) << p[i];
+}
+
 TEST(Populations, QuantilesAreThoseOfTheDensity) {
   const std::vector<std::pair<DistributionPtr, double>> all{
       {uniform(-1, 3), -1},           {normal(2, 0.5), 2 - 4.5},  {elevation(-0.3, 1.2), -0.3},
@@ -124,6 +133,54 @@ void expect_share(const Population& population, double share, std::uint64_t coun
   EXPECT_LT(found.low, found.share);
   EXPECT_GT(found.high, found.share);
   EXPECT_LT(found.high - found.low, 6 * std::sqrt(share / double(count)));
+}
+
+/// A scene in the plane, as its file gives it.
+Population flat(const std::string& agent, const std::string& obstacle) {
+  Population population;
+  population.scene = scenes::scene_of_text(
+      "agent: " + agent + "\nobstacle: " + obstacle + "\nagent_velocity: [10, 0]\n", "flat.yaml");
+  return population;
+}
+
+TEST(Populations, SharesInThePlaneAreThoseOfClosedForms) {
+  const boost::math::normal_distribution<> standard;
+  // Off the way by a normal number: within the sum of the half widths.
+  const double share = 2 * cdf(standard, 2.5 / 4) - 1;
+  for (const char* obstacle :
+       {"{center: [50, 0], semi_axes: [2, 1.5]}", "{polygon: [[50, -1.5], [53, 1], [51, 1.5]]}"}) {
+    Population off = flat("{center: [0, 0], semi_axes: [3, 1]}", obstacle);
+    off.variables = {{true, Quantity::y, normal(0, 4), nullptr}};
+    expect_share(off, share, 20'000);
+  }
+  // A disc that flies anywhere: within the half angle asin((1 + 2) / 50) of the line of centres; turned, that
+  // is no other.
+  Population anywhere = flat("{center: [0, 0], semi_axes: [1, 1]}", "{center: [30, 40], semi_axes: [2, 2]}");
+  anywhere.variables = {{false, Quantity::course, uniform(-kPi, kPi), nullptr}};
+  expect_share(anywhere, std::asin(0.06) / kPi, 1'000'000);
+  anywhere.variables.push_back({true, Quantity::yaw, uniform(-kPi, kPi), nullptr});
+  expect_share(anywhere, std::asin(0.06) / kPi, 20'000);
+  // A needle's half width seen along the way, by its heading: the mean over headings of a numerical integral.
+  Population needle = flat("{center: [0, 0], semi_axes: [1, 1]}", "{center: [50, 0], semi_axes: [6, 0.5]}");
+  needle.variables = {{true, Quantity::yaw, uniform(0, kPi), nullptr},
+                      {true, Quantity::y, uniform(-10, 10), nullptr}};
+  double mean = 0;
+  constexpr int kSteps = 1000;
+  for (int i = 0; i < kSteps; ++i)
+    mean += std::hypot(6 * std::sin(kPi * (i + 0.5) / kSteps), 0.5 * std::cos(kPi * (i + 0.5) / kSteps));
+  expect_share(needle, (1 + mean / kSteps) / 10, 20'000);
+  // What would lift a body out of the plane, or make it longer than it is high, is refused by its name.
+  for (const Quantity what :
+       {Quantity::z, Quantity::pitch, Quantity::roll, Quantity::a, Quantity::vz, Quantity::climb}) {
+    Population wrong = needle;
+    wrong.variables[0].what = what;
+    try {
+      (void)Sampler(wrong);
+      ADD_FAILURE() << to_string(what);
+    } catch (const InputError& e) {
+      EXPECT_EQ(e.field(), std::string("drawn.obstacle.") + to_string(what));
+    }
+  }
 }
 
 TEST(Populations, SharesAreThoseOfClosedForms) {

@@ -22,6 +22,11 @@ constexpr std::size_t kChunk = 512;  // encounters drawn together: their columns
 bool of_place(Quantity what) { return what < Quantity::vx; }
 bool of_turn(Quantity what) { return what >= Quantity::yaw && what <= Quantity::roll; }
 bool of_axes(Quantity what) { return what >= Quantity::a && what <= Quantity::c; }
+/// Raised bodies stay so high that verdicts are those of the plane: their semi-axes are not drawn.
+bool in_plane(Quantity what) {
+  using enum Quantity;
+  return what == x || what == y || what == yaw || what == vx || what == vy || what == speed || what == course;
+}
 bool of_polar(Quantity what) { return what >= Quantity::speed; }
 
 /// v by its speed, course and climb.
@@ -71,8 +76,6 @@ struct Sampler::Columns {
 
 Sampler::Sampler(Population population) : population_(std::move(population)) {
   const scenes::Scene& scene = population_.scene;
-  if (scene.planar)
-    throw InputError("agent.center", "two numbers", "three: populations are of bodies in space");
   bool places = false;
   for (const bool obstacle : {false, true}) {
     const scenes::SceneBody& body = obstacle ? scene.obstacle : scene.agent;
@@ -90,6 +93,9 @@ Sampler::Sampler(Population population) : population_(std::move(population)) {
   for (const Variable& variable : population_.variables) {
     places |= of_place(variable.what);
     polar_[variable.obstacle] |= of_polar(variable.what);
+    if (scene.in_plane && !in_plane(variable.what))
+      throw InputError("drawn." + name_of(variable), "given",
+                       "left out: of bodies in the plane x, y, yaw, vx, vy, speed and course can be drawn");
     if (of_axes(variable.what) && !ellipsoids_[variable.obstacle])
       throw InputError("drawn." + name_of(variable), "given", "left out: only ellipsoids have semi-axes");
   }
@@ -159,6 +165,11 @@ void Sampler::draw(std::uint64_t seed, std::uint64_t first, std::size_t count, b
         for (std::size_t j = 0; j <= k; ++j) z += group.factor[k][j] * scores[j][i];
         to.x[group.variables[k]][i] = variables[group.variables[k]].nominal->from_normal(z);
       }
+  }
+  if (!population_.weighted()) {
+    std::fill_n(to.weight.begin(), count, 1.0);
+    std::fill_n(to.uncovered.begin(), count, false);
+    return;
   }
   const double share = population_.nominal_share;
   for (std::size_t i = 0; i < count; ++i) {
@@ -232,12 +243,25 @@ void Sampler::tally_fixed(std::uint64_t seed, std::uint64_t first, std::uint64_t
   const Horizon horizon{0, population_.within.value_or(0)};
   const bool whole = !population_.within;
   const bool apart = oracle_ && oracle_->relation() == Relation::disjoint;
+  const bool plain = apart && whole && !population_.weighted();
   for (std::uint64_t done = 0; done < count; done += kChunk) {
     checkpoint();
     const auto n = std::size_t(std::min<std::uint64_t>(kChunk, count - done));
     draw(seed, first + done, n, true, true, *columns);
     fill_velocities(*columns, n, *columns);
     if (apart) oracle_->memberships({columns->w.data(), n}, {columns->membership.data(), n});
+    const auto of = [&](Membership m) {
+      return std::uint64_t(std::count(columns->membership.data(), columns->membership.data() + n, m));
+    };
+    if (plain && of(Membership::on) == 0) {
+      const std::uint64_t in = of(Membership::in);
+      to.in += in;
+      to.weight += double(n);
+      to.weight_squares += double(n);
+      to.sure.add(1, in);
+      to.possible.add(1, in);
+      continue;
+    }
     for (std::size_t i = 0; i < n; ++i) {
       const double weight = columns->weight[i];
       to.weight += weight;

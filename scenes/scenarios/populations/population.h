@@ -86,10 +86,10 @@ struct Population {
 /// Sums over observations x >= 0: an encounter's weight times the share of its velocities that collide.
 struct Moments {
   double sum = 0, squares = 0, largest = 0;
-  void add(double x) {
-    sum += x;
-    squares += x * x;
-    if (x > largest) largest = x;
+  void add(double x, std::uint64_t times = 1) {
+    sum += double(times) * x;
+    squares += double(times) * (x * x);
+    if (times > 0 && x > largest) largest = x;
   }
 };
 
