@@ -16,7 +16,7 @@ from command import SOURCE, VERICONE, ball, engagement, run  # noqa: E402
 
 PROGRAMS = os.environ["VERICONE_PROGRAMS"].split()
 NEEDS = {"fit": "VERICONE_FITTING", "pursue": "VERICONE_VISION", "scan": "VERICONE_LIDAR", "track": "VERICONE_VISION",
-         "verify": "VERICONE_VERIFY"}
+         "verify": "VERICONE_VERIFY", "rows": "VERICONE_HDF5", "mpi": "VERICONE_MPI"}
 HEAVY = ("CGAL", "gmp", "mpfr", "ceres", "embree", "Open3D", "opencv", "qhull")
 
 
@@ -143,6 +143,14 @@ class Family(unittest.TestCase):
         asked = sum(p["compared_with_exact"] + p["checked_against_cgal"] for p in told["predicates"])
         self.assertEqual(told["statements"], asked)
         self.assertIn(" %d statements" % asked, verdict)
+        # Parts have all reports, each once, but for their times.
+        parts = [json.loads(run("verify", "--cases", "20", "--pairs", "1", "--quiet", "--json", "--part", f"{k}/3").stdout) for k in (1, 2, 3)]
+        whole = json.loads(run("verify", "--cases", "20", "--pairs", "1", "--quiet", "--json").stdout)
+        for name in ("predicates", "sector_by_support", "sector_by_degenerate_conics", "cones_in_space", "assemblies"):
+            def known(told):
+                return sorted(json.dumps({k: v for k, v in report.items() if "nanoseconds" not in k}) for report in told[name])
+            self.assertEqual(sorted(report for part in parts for report in known(part)), known(whole))
+        self.assertEqual(sum(part["statements"] for part in parts), whole["statements"])
 
     def test_the_core_alone_says_what_is_missing(self):
         listed = self.call_core("--help").stdout

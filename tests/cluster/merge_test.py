@@ -71,6 +71,62 @@ class Merge(unittest.TestCase):
                 self.assertEqual(contents(merged), contents(whole))
                 self.assertEqual(*(re.sub(r"\d+\.\d s\b", "", text) for text in (again.stdout.replace(merged, whole), result.stdout)))
 
+    def kept(self, name, *words):
+        """What --rows leaves in the folder, beside the summaries, which are those of all rows."""
+        result = run(*words, "--no-figures", "--quiet", "--out", self.path(name))
+        self.assertEqual((result.returncode, result.stderr), (0, ""))
+        files = contents(self.path(name))
+        self.assertEqual({file: files.pop(file) for file in ("summary.csv", "summary.json")},
+                         {file: self.whole[file] for file in ("summary.csv", "summary.json")})
+        for file in files:
+            self.assertIn(os.path.join(self.path(name), file), result.stdout)
+        return files
+
+    def test_what_is_kept_of_the_rows(self):
+        words = command("campaign")
+        self.assertEqual(run(*words, "--no-figures", "--quiet", "--out", self.path("whole")).returncode, 0)
+        self.whole = contents(self.path("whole"))
+        lines = self.whole["engagements.csv"].splitlines(keepends=True)
+        self.assertEqual(self.kept("none", *words, "--rows", "none"), {})
+        self.assertEqual(self.kept("named", *words, "--rows", "mine.csv"), {"mine.csv": self.whole["engagements.csv"]})
+
+        def scrambled(row, mask=2**64 - 1):  # SplitMix64, of the row's number
+            x = (row + 0x9e3779b97f4a7c15) & mask
+            x = (x ^ x >> 30) * 0xbf58476d1ce4e5b9 & mask
+            x = (x ^ x >> 27) * 0x94d049bb133111eb & mask
+            return x ^ x >> 31
+
+        chosen = sorted(sorted(range(41), key=scrambled)[:7])
+        sample = {"engagements.sample.csv": lines[0][:-1] + b", a sample of 7 rows\n" + lines[1] + b"".join(lines[2 + i] for i in chosen)}
+        parts = [self.part([*words, "--rows", "sample:7"], k, 3, f"sampled-{k}") for k in (1, 2, 3)]
+        for threads in ("1", "3"):
+            self.assertEqual(self.kept("sample-" + threads, *words, "--rows", "sample:7", "--threads", threads), sample)
+        self.assertEqual(self.kept("sample-merged", "merge", *parts), sample)
+        self.assertEqual(len(self.kept("most", *words, "--rows", "sample:1000")["engagements.sample.csv"].splitlines()), 43)
+        # An earlier table does not stay beside what is kept now.
+        self.assertEqual(self.kept("whole", *words, "--rows", "none"), {})
+        scan = self.path("scan.off")
+        with open(scan, "w", encoding="utf-8") as f:
+            f.write(TETRAHEDRON)
+        for rows, of, says in (("some", words, "none, sample:N, or the name of a file in --out that ends with .csv or .h5"),
+                               ("a/b.csv", words, "none, sample:N, or"), ("sample:0", words, "sample:N, N from 1 to 1000000"),
+                               ("mine.csv", command("scans", scan), "none or sample:N: there are 2 tables")):
+            result = run(*of, "--rows", rows, "--out", self.path("refused"))
+            self.assertEqual((result.returncode, result.stdout), (2, ""))
+            self.assertTrue(result.stderr.startswith(f"vericone: --rows: got {rows}, must be {says}"), result.stderr)
+            self.assertFalse(os.path.exists(self.path("refused")))
+        result = run(*words, "--rows", "summary.csv", "--no-figures", "--quiet", "--out", self.path("same"))
+        self.assertEqual((result.returncode, result.stderr), (2, "vericone: --rows: got summary.csv, must be the name of no other file in --out\n"))
+        # Its rows are done, and serve the next try.
+        self.assertEqual(os.listdir(self.path("same")), ["engagements.csv.partial"])
+        self.assertEqual(self.kept("same", *words, "--rows", "none"), {})
+        if os.path.exists(os.path.join(os.path.dirname(VERICONE), "vericone-rows")):
+            self.assertEqual(set(self.kept("packed", *words, "--rows", "mine.h5")), {"mine.h5"})
+            again = self.path("again.csv")
+            self.assertEqual(run("rows", self.path("packed/mine.h5"), "--out", again, "--quiet").returncode, 0)
+            with open(again, "rb") as f:
+                self.assertEqual(f.read(), self.whole["engagements.csv"])
+
     def test_what_is_not_of_one_run_is_refused(self):
         words = command("campaign")
         one, two, three = (self.part(words, k, 3) for k in (1, 2, 3))

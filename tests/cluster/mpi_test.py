@@ -81,7 +81,7 @@ class Mpi(unittest.TestCase):
         for words, says in ((["campaign", "-N", "10", "--laws", "flap"], "vericone: --laws: got flap, must be "),
                             (["campaign", "--engagments", "10"], "vericone: no option --engagments, did you mean --engagements"),
                             (["campaign", "-N", "10", "--threads", "3"], "vericone: --threads: got 3, must be 1, or left out"),
-                            (["fit", "bunny.ply"], "vericone-mpi: command: got fit, must be one of accuracy, campaign, ")):
+                            (["fit", "bunny.ply"], "vericone: command: got fit, must be one of accuracy, campaign, ")):
             with self.subTest(says):
                 status, out, error = self.ranks(3, *words, *(["--out", self.path("none")] if words[0] == "campaign" else []))
                 self.assertEqual((status, out), (2, ""))

@@ -28,6 +28,8 @@ EXAMPLES = {
     "query": "query docs/examples/cases.jsonl --rung",
     "view": "view docs/examples/first.yaml --quiet",
     "merge": "merge out/part-1 out/part-2 --no-figures --out out/whole",
+    "rows": "rows docs/examples/track.csv --quiet",
+    "mpi": "mpi --help",
     "bands": "bands docs/examples/bands.jsonl",
     "avoid": "avoid docs/examples/avoid.jsonl",
     "robust-law": "robust-law docs/examples/robust-law.jsonl",
@@ -113,7 +115,7 @@ def measured(program):
             if line.startswith("merge "):  # of what other commands have left
                 continue
             arguments = line.replace("OUT", os.path.join(folder, "out")).split()
-            if "--out" not in arguments and arguments[0] not in ("query", "bands", "avoid", "check", "claims", "verify", "cone") and "--list" not in arguments:
+            if "--out" not in arguments and arguments[0] not in ("query", "bands", "avoid", "check", "claims", "verify", "cone", "rows") and "--list" not in arguments:
                 arguments += ["--out", os.path.join(folder, "out")]
             before, began = resource.getrusage(resource.RUSAGE_CHILDREN), time.monotonic()
             done = subprocess.run([program, *arguments], capture_output=True, check=False)

@@ -17,8 +17,8 @@ class Commands(unittest.TestCase):
     maxDiff = None
 
     def test_the_page_is_written_from_the_helps(self):
-        if not {"fit", "pursue", "scan", "track", "verify"} <= set(os.environ["VERICONE_PROGRAMS"].split()):
-            self.skipTest("needs the programs fit, pursue, scan, track and verify")
+        if not {"fit", "mpi", "pursue", "rows", "scan", "track", "verify"} <= set(os.environ["VERICONE_PROGRAMS"].split()):
+            self.skipTest("needs the programs fit, mpi, pursue, rows, scan, track and verify")
         written = "".join("\n".join(map(commands.wrapped, part.split("\n"))) + "\n"
                           for part in commands.reference(os.environ["VERICONE"]))
         self.assertEqual(written, text_of(ROOT / "docs/reference/commands.md"),

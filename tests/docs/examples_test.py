@@ -30,8 +30,8 @@ class Examples(unittest.TestCase):
 
     def setUp(self):
         archive = Path(os.environ["VERICONE_CGAL_MESHES"])
-        if not archive.exists() or not {"fit", "pursue", "scan", "track", "verify"} <= set(os.environ["VERICONE_PROGRAMS"].split()):
-            self.skipTest("needs libcgal-demo and the programs fit, pursue, scan, track and verify")
+        if not archive.exists() or not {"fit", "mpi", "pursue", "rows", "scan", "track", "verify"} <= set(os.environ["VERICONE_PROGRAMS"].split()):
+            self.skipTest("needs libcgal-demo and the programs fit, mpi, pursue, rows, scan, track and verify")
         self.folder = Path(tempfile.mkdtemp())
         self.addCleanup(shutil.rmtree, self.folder)
         shutil.copytree(ROOT / "docs/examples", self.folder / "docs/examples")

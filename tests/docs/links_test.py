@@ -21,7 +21,7 @@ KINDS = {".h", ".cpp", ".py", ".md", ".txt", ".yaml", ".json", ".cmake", ".js", 
 # What other programs take: CTest, CMake, git, googletest, Google Benchmark, g++, pip, and this project's scripts.
 OF_OTHERS = re.compile(r"--(gtest_\w+|benchmark_\w+|preset|build|install|prefix|target|param|tree|table|before|narrow|"
                        r"again|cflags|libs|test-dir|as-needed|packages|no-index|no-build-isolation|system-site-packages)$")
-PROGRAMS = {"fit", "pursue", "scan", "track", "verify"} - set(os.environ.get("VERICONE_PROGRAMS", "").split())
+PROGRAMS = {"fit", "mpi", "pursue", "rows", "scan", "track", "verify"} - set(os.environ.get("VERICONE_PROGRAMS", "").split())
 # Not of this form: a table that its own test writes, a log, a page under work.
 OF_ANOTHER_FORM = {"docs/reference/bad-input.md", "docs/reference/papers.md"}
 WIDTH = 120

@@ -5,7 +5,6 @@
 #include <vericone/geometry/error.h>
 #include <vericone/geometry/min_volume_ellipsoid.h>
 #include <vericone/internal/files/extensions.h>
-#include <vericone/work/staged_folder.h>
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -24,17 +23,11 @@
 #include "accuracy/summary.h"
 #include "command/output_line.h"
 #include "commands.h"
-#include "input/stopwatch.h"
+#include "job/job.h"
 #include "json/json_value.h"
 #include "output/output_file.h"
-#include "output/part.h"
-#include "output/progress.h"
-#include "output/results.h"
 #include "picture/engagements.h"
 #include "work/file_hash.h"
-#include "work/interrupt.h"
-#include "work/provenance.h"
-#include "work/threads.h"
 
 namespace vericone::accuracy {
 namespace {
@@ -143,7 +136,6 @@ void validate(const Options& o) {
     throw InputError("--engagements", std::to_string(*o.engagements), "between 1 and 100000000");
   if (o.approaches < 1 || o.approaches > 1'000'000)
     throw InputError("--approaches", std::to_string(o.approaches), "between 1 and 1000000");
-  threads_for(o.threads);
 }
 
 /// With what is left to choose chosen.
@@ -162,7 +154,6 @@ Options complete(Options o, ObstacleKind kind) {
 work::ResumableTable table_of_pairs(const Options& o, const Engagements& engagements) {
   work::ResumableTable table{"engagements.csv"};
   table.header = csv_header(o.planes);
-  table.threads = threads_for(o.threads);
   table.count = engagements.count;
   table.settings = "# vericone accuracy, " + engagements.settings + ", planes " + planes_text(o.planes);
   table.id = engagements.id;
@@ -176,7 +167,6 @@ work::ResumableTable table_of_pairs(const Options& o, const Engagements& engagem
 work::ResumableTable table_of_scans(const Options& o, const std::vector<Scan>& scans) {
   work::ResumableTable table{"scans.csv"};
   table.header = csv_header(o.planes);
-  table.threads = threads_for(o.threads);
   table.count = scans.size() * o.approaches;
   table.settings = "# vericone accuracy, seed " + std::to_string(o.seed) + ", " +
                    std::to_string(o.approaches) + " approaches, planes " + planes_text(o.planes) + ", scans";
@@ -231,72 +221,55 @@ Json picture_of(const Engagements& engagements, const std::vector<Measurement>& 
   return picture;
 }
 
-Json origin_of(const Options& o, const Engagements& engagements) {
-  const std::vector<fs::path> scans = scan_files(o.scans);
-  std::vector<fs::path> inputs = scans;
-  if (!o.cases.empty()) inputs.emplace_back(o.cases);
-  Json origin = provenance(o.command_line, threads_for(o.threads), inputs);
-  origin["seed"] = o.seed;
-  origin["engagements"] = engagements.count;
-  origin["planes"] = o.planes;
-  origin["scans"] = Json::array();
-  for (const auto& file : scans) origin["scans"].push_back(file.string());
-  return origin;
-}
-
 }  // namespace
 
-int run_accuracy(const Options& given, std::ostream& standard_output) {
+int run_accuracy(const Options& given, std::ostream& out) {
   validate(given);
   const ObstacleKind kind = obstacle_kind(given.obstacle);
   const Options options = complete(given, kind);
-  if (kind != ObstacleKind::ellipsoid) return run_combined_accuracy(options, kind, standard_output);
+  if (kind != ObstacleKind::ellipsoid) return run_combined_accuracy(options, kind, out);
   if (options.tolerance)
     throw InputError("--tolerance", to_text(*options.tolerance),
                      "left out for ellipsoids, whose cone is exact");
-  std::ostream silent(nullptr);
-  std::ostream& out = options.json ? silent : standard_output;
   const Engagements engagements = engagements_of(options);
+  const std::vector<fs::path> files = scan_files(options.scans);
   std::vector<Scan> scans;
-  for (const fs::path& file : scan_files(options.scans)) scans.push_back(read_scan(file));
-  work::StagedFolder folder(options.out, "--out");
-  const auto start = Clock::now();
-  const auto filled = [&](const work::ResumableTable& table, const char* label) {
-    return run_with_bar(table, folder, label, options, out);
+  for (const fs::path& file : files) scans.push_back(read_scan(file));
+  Job job{options,
+          files,
+          {{table_of_pairs(options, engagements),
+            options.cases.empty() ? "random engagements" : "engagements       "}}};
+  if (!options.cases.empty()) job.inputs.emplace_back(options.cases);
+  if (!scans.empty()) job.tables.push_back({table_of_scans(options, scans), "scanned objects   "});
+  const auto tell = [&](Results& found, work::StagedFolder& folder) {
+    const auto rows_of = [&](const char* table) {
+      return read_table(folder.resumable(table), options.planes.size());
+    };
+    const auto rows = rows_of("engagements.csv");
+    const Summary random = summarise(rows, options.planes);
+    found.summary["random"] = to_json(random);
+    found.summary["random"]["drawn"] = engagements.drawn;
+    found.scripts = {"accuracy.py", "engagement.py"};
+    found.files = {"engagements.csv"};
+    found.old = {"accuracy.pdf", "accuracy.png", "engagement.pdf", "engagement.png",
+                 "scans.csv",    "scans.pdf",    "scans.png"};
+    found.text << engagements.count << ' ' << engagements.drawn << ", " << options.planes.size()
+               << " plane counts, " << std::fixed << std::setprecision(1)
+               << found.origin["seconds"].get<double>() << " s\n";
+    print_summary(random, found.text);
+    if (!scans.empty()) {
+      found.summary["scans"] = tell_scans(options, scans, rows_of("scans.csv"), found.text);
+      found.files.emplace_back("scans.csv");
+    }
+    write_whole(folder.path() / "engagement.json", picture_of(engagements, rows).dump(1) + "\n");
+    found.files.insert(found.files.end(), {"summary.json", "provenance.json"});
+    found.origin.update({{"seed", options.seed},
+                         {"engagements", engagements.count},
+                         {"planes", options.planes},
+                         {"scans", Json::array()}});
+    for (const fs::path& file : files) found.origin["scans"].push_back(file.string());
   };
-
-  std::vector<work::ResumableTable> tables{table_of_pairs(options, engagements)};
-  if (!filled(tables.front(), options.cases.empty() ? "random engagements" : "engagements       "))
-    return kExitInterrupted;
-  const double seconds = seconds_since(start);
-  if (!scans.empty()) {
-    tables.push_back(table_of_scans(options, scans));
-    if (!filled(tables.back(), "scanned objects   ")) return kExitInterrupted;
-  }
-  Json origin = origin_of(options, engagements);
-  origin["seconds"] = seconds_since(start);
-  if (!options.part.empty()) return publish_part(options, folder, tables, std::move(origin), standard_output);
-  const auto rows = read_table(folder.resumable(tables.front().name), options.planes.size());
-  const Summary random = summarise(rows, options.planes);
-  Results found{.summary = {{"random", to_json(random)}},
-                .origin = std::move(origin),
-                .scripts = {"accuracy.py", "engagement.py"},
-                .files = {tables.front().name},
-                .old = {"accuracy.pdf", "accuracy.png", "engagement.pdf", "engagement.png", "scans.csv",
-                        "scans.pdf", "scans.png"}};
-  found.summary["random"]["drawn"] = engagements.drawn;
-  out << engagements.count << ' ' << engagements.drawn << ", " << options.planes.size() << " plane counts, "
-      << std::fixed << std::setprecision(1) << seconds << " s\n";
-  print_summary(random, out);
-  if (!scans.empty()) {
-    const auto own = read_table(folder.resumable(tables.back().name), options.planes.size());
-    found.summary["scans"] = tell_scans(options, scans, own, out);
-    found.files.push_back(tables.back().name);
-  }
-  write_whole(folder.path() / "engagement.json", picture_of(engagements, rows).dump(1) + "\n");
-  found.files.insert(found.files.end(), {"summary.json", "provenance.json"});
-  publish(found, options, folder, "", standard_output);
-  return 0;
+  return run_job(std::move(job), tell, out);
 }
 
 }  // namespace vericone::accuracy
@@ -330,14 +303,7 @@ int accuracy_command(CommandLine& line) {
       .words(1, -1)
       .commas();
   line.option("--seed", options.seed, "Seed of all random numbers");
-  part_option(line, options.part);
-  line.option("--out", options.out, "Folder for tables and pictures").shown_default("out/accuracy");
-  line.option("--threads", options.threads, "Threads, 0: one per processor");
-  line.negative_flag("--no-figures", options.figures, "Tables only");
-  line.flag("--quiet", options.quiet, "No progress");
-  line.flag("--json", options.json, "Print JSON: summary.json");
-  line.read();
-  keep_words(line, options);
+  read_job_line(line, options, "out/accuracy");
   return accuracy::run_accuracy(options, std::cout);
 }
 

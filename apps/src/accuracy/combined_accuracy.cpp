@@ -4,7 +4,6 @@
 #include <vericone/cones/slices/slice_cone.h>
 #include <vericone/geometry/error.h>
 #include <vericone/internal/cones/combined/cone.h>
-#include <vericone/work/staged_folder.h>
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -14,14 +13,8 @@
 #include "accuracy/distribution.h"
 #include "accuracy/measure.h"
 #include "accuracy/statistics.h"
-#include "input/stopwatch.h"
+#include "job/job.h"
 #include "json/json_value.h"
-#include "output/part.h"
-#include "output/progress.h"
-#include "output/results.h"
-#include "work/interrupt.h"
-#include "work/provenance.h"
-#include "work/threads.h"
 
 namespace vericone::accuracy {
 namespace {
@@ -168,9 +161,7 @@ void print_combined_summary(const CombinedSummary& s, std::ostream& out) {
 
 }  // namespace
 
-int run_combined_accuracy(const Options& options, ObstacleKind kind, std::ostream& standard_output) {
-  std::ostream silent(nullptr);
-  std::ostream& out = options.json ? silent : standard_output;
+int run_combined_accuracy(const Options& options, ObstacleKind kind, std::ostream& out) {
   if (!options.scans.empty())
     throw InputError("--scan", options.scans.front(), "left out with --obstacle " + options.obstacle);
   const double tolerance = options.tolerance.value_or(kReferenceTolerance);
@@ -178,12 +169,8 @@ int run_combined_accuracy(const Options& options, ObstacleKind kind, std::ostrea
     throw InputError("--tolerance", to_text(tolerance), "between 0 and 1, both excluded");
   const std::uint64_t count = options.engagements.value_or(kDefaultEngagements);
   const Distribution from = distribution(options);
-  work::StagedFolder folder(options.out, "--out");
-  const auto start = Clock::now();
-
   work::ResumableTable campaign{"engagements.csv"};
   campaign.header = header(options.planes);
-  campaign.threads = threads_for(options.threads);
   campaign.block = 5;
   campaign.count = count;
   campaign.settings = "# vericone accuracy, obstacle " + options.obstacle + ", tolerance " +
@@ -194,34 +181,27 @@ int run_combined_accuracy(const Options& options, ObstacleKind kind, std::ostrea
     const auto [a, b] = random_combined_engagement(kind, options.seed, i, from);
     return line(i, measure_combined(a, b, options.planes, tolerance), a, b);
   };
-  if (!run_with_bar(campaign, folder, options.obstacle + " obstacles", options, out)) return kExitInterrupted;
-
-  const double seconds = seconds_since(start);
-  Json origin = provenance(options.command_line, campaign.threads, {});
-  origin["seconds"] = seconds;
-  if (!options.part.empty())
-    return publish_part(options, folder, {campaign}, std::move(origin), standard_output);
-  const CombinedSummary summary = summarise_combined(
-      read_combined(folder.resumable(campaign.name), options.planes.size()), options.planes);
-  Results found{.summary = {{"random", to_json(summary)}},
-                .origin = std::move(origin),
-                .scripts = {"combined_accuracy.py"},
-                .files = {campaign.name, "summary.json", "provenance.json"},
-                .old = {"accuracy.pdf", "accuracy.png"}};
-  found.summary["random"]["obstacle"] = options.obstacle;
-  found.summary["random"]["tolerance"] = tolerance;
-  found.summary["random"]["drawn"] = distribution_text(from);
-  out << count << " random engagements with " << options.obstacle << " obstacles, " << options.planes.size()
-      << " plane counts, true cones certified to " << percent(tolerance) << ", " << std::fixed
-      << std::setprecision(1) << seconds << " s\n";
-  print_combined_summary(summary, out);
-  found.origin["seed"] = options.seed;
-  found.origin["obstacle"] = options.obstacle;
-  found.origin["tolerance"] = tolerance;
-  found.origin["engagements"] = count;
-  found.origin["planes"] = options.planes;
-  publish(found, options, folder, "", standard_output);
-  return 0;
+  const auto tell = [&](Results& found, work::StagedFolder& folder) {
+    const CombinedSummary summary = summarise_combined(
+        read_combined(folder.resumable(campaign.name), options.planes.size()), options.planes);
+    found.summary["random"] = to_json(summary);
+    found.summary["random"].update(
+        {{"obstacle", options.obstacle}, {"tolerance", tolerance}, {"drawn", distribution_text(from)}});
+    found.scripts = {"combined_accuracy.py"};
+    found.files = {campaign.name, "summary.json", "provenance.json"};
+    found.old = {"accuracy.pdf", "accuracy.png"};
+    found.text << count << " random engagements with " << options.obstacle << " obstacles, "
+               << options.planes.size() << " plane counts, true cones certified to " << percent(tolerance)
+               << ", " << std::fixed << std::setprecision(1) << found.origin["seconds"].get<double>()
+               << " s\n";
+    print_combined_summary(summary, found.text);
+    found.origin.update({{"seed", options.seed},
+                         {"obstacle", options.obstacle},
+                         {"tolerance", tolerance},
+                         {"engagements", count},
+                         {"planes", options.planes}});
+  };
+  return run_job({options, {}, {{campaign, options.obstacle + " obstacles"}}}, tell, out);
 }
 
 }  // namespace vericone::accuracy

@@ -2,11 +2,9 @@
 #include <vericone/geometry/error.h>
 #include <vericone/internal/simulation/montecarlo/flight.h>
 #include <vericone/simulation/montecarlo/campaign.h>
-#include <vericone/work/staged_folder.h>
 #include <cstdint>
 #include <iostream>
 #include <ostream>
-#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -16,17 +14,10 @@
 #include "command/default_seed.h"
 #include "command/output_line.h"
 #include "commands.h"
-#include "input/stopwatch.h"
+#include "job/job.h"
 #include "json/json_value.h"
 #include "output/output_file.h"
-#include "output/output_options.h"
-#include "output/part.h"
-#include "output/progress.h"
-#include "output/results.h"
 #include "scenarios/campaign_table.h"
-#include "work/interrupt.h"
-#include "work/provenance.h"
-#include "work/threads.h"
 
 namespace vericone::montecarlo {
 namespace {
@@ -60,31 +51,27 @@ std::vector<Flown> laws_of_options(const Campaign& campaign) {
 /// Random engagements under every law, with a proof of what became of each. Returns the exit status: 1 where
 /// a run met that a proved statement called safe, 130 interrupted. Throws InputError naming the option.
 int run_campaign(const CampaignOptions& options, std::ostream& out) {
-  threads_for(options.threads);
   const Campaign campaign = campaign_of(options);
   const std::vector<Flown> laws = laws_of_options(campaign);
-  work::StagedFolder folder(options.out, "--out");
-  const auto start = Clock::now();
-  const work::ResumableTable table = scenario::campaign_table(campaign, laws, threads_for(options.threads));
-  if (!run_with_bar(table, folder, "engagements", options, out)) return kExitInterrupted;
-  Json origin = provenance(options.command_line, table.threads, {});
-  origin["seconds"] = seconds_since(start);
-  if (!options.part.empty()) return publish_part(options, folder, {table}, std::move(origin), out);
-  const Summary found = summarise_file(folder.resumable(table.name), laws);
-  Results results{.summary = to_json(found),
-                  .origin = std::move(origin),
-                  .scripts = {"campaigns/engagement_campaign.py"},
-                  .files = {table.name, "summary.csv", "summary.json"},
-                  .old = {"campaign.pdf", "campaign.png"}};
-  results.summary["settings"] = table.settings;
-  results.summary["violations"] = violations(found);
-  write_whole(folder.path() / "summary.csv", summary_csv(found));
-  std::ostringstream text;
-  print_summary(found, text);
-  if (const auto wrong = violations(found))
-    text << "VIOLATED: " << wrong << " runs met that a proved statement had called safe\n";
-  publish(results, options, folder, text.str(), out);
-  return violations(found) ? 1 : 0;
+  const work::ResumableTable table = scenario::campaign_table(campaign, laws, 1);
+  return run_job(
+      {options, {}, {{table, "engagements"}}},
+      [&](Results& results, work::StagedFolder& folder) {
+        const Summary found = summarise_file(folder.resumable(table.name), laws);
+        const auto wrong = violations(found);
+        results.summary = to_json(found);
+        results.summary["settings"] = table.settings;
+        results.summary["violations"] = wrong;
+        results.scripts = {"campaigns/engagement_campaign.py"};
+        results.files = {table.name, "summary.csv", "summary.json"};
+        results.old = {"campaign.pdf", "campaign.png"};
+        write_whole(folder.path() / "summary.csv", summary_csv(found));
+        print_summary(found, results.text);
+        if (wrong)
+          results.text << "VIOLATED: " << wrong << " runs met that a proved statement had called safe\n";
+        results.status = wrong ? 1 : 0;
+      },
+      out);
 }
 
 }  // namespace
@@ -95,10 +82,8 @@ namespace vericone {
 
 int campaign_command(CommandLine& line) {
   montecarlo::CampaignOptions campaign;
-  line.option("--out", campaign.out, "Folder for tables and picture");
-  line.option("-N,--engagements", campaign.engagements, "Random engagements");
+  line.option("-N,--engagements", campaign.engagements, "Random engagements, or with --verdicts encounters");
   line.option("--seed", campaign.seed, "Seed of all random numbers");
-  line.option("--threads", campaign.threads, "Threads, 0: one per processor");
   line.option(
       "--verdicts", campaign.verdicts,
       "Nothing flies: verdicts of encounters drawn from this file (docs/reference/formats.md, Populations)");
@@ -112,12 +97,7 @@ int campaign_command(CommandLine& line) {
       {"--reference", line.option("--reference", campaign.reference, "w, to which y is driven")},
       {"--required", line.option("--required", campaign.required, "Of the clearance law, metres")},
       {"--step", line.option("--step", campaign.step, "Between two commands, s")}};
-  part_option(line, campaign.part);
-  line.negative_flag("--no-figures", campaign.figures, "Tables only");
-  line.flag("--quiet", campaign.quiet, "No progress");
-  line.flag("--json", campaign.json, "Print JSON");
-  line.read();
-  keep_words(line, campaign);
+  read_job_line(line, campaign);
   if (!campaign.verdicts.empty()) {
     for (const auto& [name, option] : of_flights)
       if (option.given()) throw InputError(name, "given", "left out beside --verdicts: nothing flies");

@@ -3,30 +3,21 @@
 
 #include <vericone/geometry/error.h>
 #include <vericone/simulation/run_tables.h>
-#include <vericone/work/staged_folder.h>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <functional>
-#include <ostream>
 #include <utility>
 #include <vector>
 
-#include "command/output_line.h"
-#include "input/stopwatch.h"
+#include "job/job.h"
 #include "json/json_value.h"
 #include "output/output_file.h"
-#include "output/part.h"
-#include "output/progress.h"
-#include "output/results.h"
 #include "scenarios/populations/estimate.h"
 #include "scenarios/populations/read_population.h"
 #include "work/file_hash.h"
-#include "work/interrupt.h"
-#include "work/provenance.h"
-#include "work/threads.h"
 
 namespace vericone::populations {
 namespace {
@@ -195,8 +186,6 @@ int run_verdict_campaign(const std::string& file, std::uint64_t encounters, std:
     throw InputError(
         "-N", std::to_string(encounters),
         "a multiple of " + std::to_string(population.strata->count()) + ", the strata of " + file);
-  work::StagedFolder folder(options.out, "--out");
-  const auto start = Clock::now();
   const std::uint64_t block = block_of(encounters);
   work::ResumableTable table{"blocks.csv"};
   table.settings = "# vericone campaign --verdicts, " + std::filesystem::path(file).filename().string() +
@@ -205,29 +194,26 @@ int run_verdict_campaign(const std::string& file, std::uint64_t encounters, std:
   table.header = "block";
   for (const Cell& one : cells()) table.header += std::string(",") + one.name;
   table.count = (encounters + block - 1) / block;
-  table.threads = threads_for(options.threads);
   table.block = 1;
   table.row = [&](std::uint64_t i) {
     return row_of(i, sampler.tally(seed, i * block, std::min(block, encounters - i * block)));
   };
-  if (!run_with_bar(table, folder, "blocks of " + std::to_string(block), options, out))
-    return kExitInterrupted;
-  Json origin = provenance(options.command_line, table.threads, {file});
-  origin["seconds"] = seconds_since(start);
-  if (!options.part.empty()) return publish_part(options, folder, {table}, std::move(origin), out);
-  const std::vector<Tally> blocks = read_blocks(folder.resumable(table.name));
-  Tally all;
-  for (const Tally& one : blocks) add(one, all);
-  const Estimate found = estimate_of(all, population);
-  Results results{.summary = to_json(all, found, population),
-                  .origin = std::move(origin),
-                  .scripts = {"campaigns/verdict_campaign.py"},
-                  .files = {table.name, "summary.json"},
-                  .old = {"share.pdf", "share.png"}};
-  results.summary["settings"] = table.settings;
-  results.summary["growth"] = growth_of(blocks, population);
-  publish(results, options, folder, text_of(all, found, population), out);
-  return 0;
+  return run_job(
+      {options, {file}, {{table, "blocks of " + std::to_string(block)}}},
+      [&](Results& results, work::StagedFolder& folder) {
+        const std::vector<Tally> blocks = read_blocks(folder.resumable(table.name));
+        Tally all;
+        for (const Tally& one : blocks) add(one, all);
+        const Estimate found = estimate_of(all, population);
+        results.summary = to_json(all, found, population);
+        results.summary["settings"] = table.settings;
+        results.summary["growth"] = growth_of(blocks, population);
+        results.scripts = {"campaigns/verdict_campaign.py"};
+        results.files = {table.name, "summary.json"};
+        results.old = {"share.pdf", "share.png"};
+        results.text << text_of(all, found, population);
+      },
+      out);
 }
 
 }  // namespace vericone::populations

@@ -9,6 +9,7 @@
 #include <limits>
 #include <list>
 #include <optional>
+#include <string_view>
 #include <type_traits>
 
 #include "work/build_info.h"
@@ -114,6 +115,9 @@ void read_words(CLI::App& app, const std::vector<std::string>& words) {
   } catch (const CLI::ParseError& e) {
     std::string text = e.what();
     std::replace(text.begin(), text.end(), '\n', ' ');
+    constexpr std::string_view kTwice = " At Most 1 required but received ";
+    if (const std::size_t at = text.find(kTwice); at != std::string::npos)
+      text = text.substr(0, at) + " given " + text.substr(at + kTwice.size()) + " times, must be given once";
     throw UsageError(text);
   }
 }

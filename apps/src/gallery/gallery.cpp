@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "command/output_line.h"
 #include "commands.h"
 #include "cone/assembly_cone.h"
 #include "cone/map_answer.h"
@@ -20,7 +21,7 @@
 #include "json/json_value.h"
 #include "output/figures.h"
 #include "output/output_file.h"
-#include "output/output_options.h"
+#include "output/part.h"
 #include "work/interrupt.h"
 #include "work/provenance.h"
 #include "work/threads.h"
@@ -237,8 +238,13 @@ int run_gallery(const GalleryOptions& options, std::ostream& out) {
   if (!(options.radius >= 0 && options.radius <= 1))
     throw InputError("--radius", to_text(options.radius),
                      "between 0 and 1, parts of the cloud's largest side");
-  const std::vector<fs::path> files = all_files(options.files);
+  std::vector<fs::path> files = all_files(options.files);
   if (files.empty()) throw InputError("files", "none", "meshes, clouds or octree maps, or folders of them");
+  if (const auto part = part_of(options.part)) {
+    const auto [begin, end] = share_of(files.size(), *part);
+    files.erase(files.begin() + std::ptrdiff_t(end), files.end());
+    files.erase(files.begin(), files.begin() + std::ptrdiff_t(begin));
+  }
   const work::StagedFolder folder(options.out, "--out");
   Gallery gallery(options, files, out);
   for (std::size_t i = 0; i < files.size(); ++i) {
@@ -261,17 +267,12 @@ int run_gallery(const GalleryOptions& options, std::ostream& out) {
 int gallery_command(CommandLine& line) {
   GalleryOptions gallery;
   line.option("files", gallery.files, "Files, or folders of them").required().words(1, -1);
-  line.option("--out", gallery.out, "Folder for tables and pictures");
   line.option("--planes", gallery.half_planes, "Half-planes of each cone");
   line.option("--tolerance", gallery.tolerance, "Of their angles, radians");
   line.option("--map", gallery.resolution, "Resolution of the cone maps, radians; 0: none");
   line.option("--radius", gallery.radius, "Of the points of clouds, in parts of the cloud's largest side");
-  line.option("--threads", gallery.threads, "Threads of maps and pictures, 0: one per processor");
-  line.negative_flag("--no-figures", gallery.figures, "Tables only");
-  line.flag("--quiet", gallery.quiet, "No progress");
-  line.flag("--json", gallery.json, "Print JSON: gallery.json");
-  line.read();
-  gallery.command_line = line.text();
+  part_option(line, gallery.part, "files alone; each part has a folder of its own");
+  read_output_line(line, gallery);
   return run_gallery(gallery, std::cout);
 }
 

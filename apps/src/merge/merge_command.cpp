@@ -14,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "command/output_line.h"
 #include "commands.h"
 #include "json/json_value.h"
 #include "output/output_file.h"
@@ -191,12 +192,7 @@ int merge_command(CommandLine& line) {
   OutputOptions options;
   std::vector<std::string> folders;
   line.option("part", folders, "Folders of all parts of one command, in any order").required().words(1, -1);
-  line.option("--out", options.out, "Folder for what one run of the command writes").required();
-  line.option("--threads", options.threads, "Threads, 0: one per processor");
-  line.negative_flag("--no-figures", options.figures, "Tables only");
-  line.flag("--quiet", options.quiet, "No progress");
-  line.flag("--json", options.json, "Print JSON");
-  line.read();
+  read_output_line(line, options);
   const std::vector<FinishedPart> parts = parts_of(folders);
   require_inputs(parts);
   merge_tables(parts, options.out);

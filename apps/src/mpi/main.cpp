@@ -1,20 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // The program `vericone-mpi`, the only one that links MPI: `mpirun -n N vericone-mpi COMMAND ...` is
-// `vericone COMMAND
-// ...` by N processes, for the commands whose rows are in tables.
+// `vericone COMMAND ...` by N processes, for the commands whose rows are in tables.
 #include <vericone/geometry/error.h>
 #include <algorithm>
-#include <iostream>
 #include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "commands.h"
+#include "job/job.h"
 #include "mpi/ranks.h"
 #include "output/part.h"
-#include "output/progress.h"
 #include "output/temporary_folder.h"
 #ifdef VERICONE_WITH_VISION
 #include "pursue/pursue_command.h"
@@ -35,25 +33,23 @@ const std::map<std::string, Command>& commands() {
   return known;
 }
 
-/// What is said where there is no command. The exit status.
-int answer_without_command(const std::vector<std::string>& words) {
-  std::string names;
-  for (const auto& [name, command] : commands()) names += (names.empty() ? "" : ", ") + name;
-  const bool help = !words.empty() && (words[0] == "--help" || words[0] == "-h");
-  if (help)
-    std::cout << "mpirun -n N vericone-mpi COMMAND ... is vericone COMMAND ... by N processes, with the same "
-                 "files;\n"
-                 "COMMAND: "
-              << names << "; vericone COMMAND --help has their options\n";
-  else
-    std::cerr << "vericone-mpi: command: got " << (words.empty() ? "nothing" : words[0])
-              << ", must be one of " << names << '\n';
-  return help ? 0 : 2;
+/// Of words that begin with none of them: help, version, or what is wrong.
+int no_command(CommandLine& line) {
+  std::string names, command;
+  for (const auto& [name, one] : commands()) names += (names.empty() ? "" : ", ") + name;
+  line.option("command", command,
+              "One of " + names +
+                  ", and its words: mpirun -n N vericone-mpi COMMAND ... does by N processes what "
+                  "vericone COMMAND ... does, with the same files, byte for byte")
+      .required();
+  line.read();
+  throw InputError("command", command, "one of " + names);
 }
 
-int run(mpi::Ranks& ranks, std::vector<std::string> words) {
+int run(mpi::Ranks& ranks, char** argv, std::vector<std::string> words) {
   const auto command = words.empty() ? commands().end() : commands().find(words[0]);
-  if (command == commands().end()) return ranks.first() ? answer_without_command(words) : 0;
+  if (command == commands().end())
+    return ranks.first() ? run_program(words.empty() ? 1 : 2, argv, "mpi", no_command) : 0;
   // The files are the first one's matter.
   std::optional<TemporaryFolder> own;
   if (!ranks.first()) {
@@ -75,6 +71,6 @@ int run(mpi::Ranks& ranks, std::vector<std::string> words) {
 int main(int argc, char** argv) {
   mpi::Ranks ranks(argc, argv);
   if (!ranks.first() && !ranks.table_comes()) return ranks.finish(0);
-  const int status = run(ranks, std::vector<std::string>(argv + 1, argv + argc));
+  const int status = run(ranks, argv, std::vector<std::string>(argv + 1, argv + argc));
   return ranks.finish(status);
 }

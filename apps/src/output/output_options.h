@@ -14,6 +14,7 @@ struct OutputOptions {
   std::string command_line;        // for provenance
   std::vector<std::string> words;  // of it, from the command's name on
   std::string part;                // K/N: of each table these rows alone; output/part.h
+  std::string rows;                // what becomes of the rows; job/kept_rows.h
 };
 
 }  // namespace vericone

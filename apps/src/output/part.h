@@ -5,16 +5,11 @@
 
 #include <cstdint>
 #include <initializer_list>
-#include <iosfwd>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
-
-#include "json/json_value.h"
-#include "output/output_options.h"
-#include "work/resumable_table.h"
 
 namespace vericone {
 
@@ -34,16 +29,5 @@ struct Part {
 /// Of `count` things in a row those of the part, from the first to before the second: as near to count/N as
 /// may be.
 [[nodiscard]] std::pair<std::uint64_t, std::uint64_t> share_of(std::uint64_t count, const Part& part);
-
-/// The rows of the part, with settings that say so.
-[[nodiscard]] work::ResumableTable rows_of_part(work::ResumableTable table, const Part& part);
-
-/// Throws InputError naming --out where the folder holds another finished result than this part.
-void require_no_other_result(const OutputOptions& options, const work::StagedFolder& folder,
-                             const Part& part);
-
-/// Publishes the tables of a part with what `merge` asks of them. Returns the exit status.
-int publish_part(const OutputOptions& options, work::StagedFolder& folder,
-                 const std::vector<work::ResumableTable>& tables, Json origin, std::ostream& out);
 
 }  // namespace vericone

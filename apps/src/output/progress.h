@@ -2,12 +2,7 @@
 #pragma once
 
 #include <chrono>
-#include <functional>
-#include <iosfwd>
 #include <string>
-
-#include "output/output_options.h"
-#include "work/resumable_table.h"
 
 namespace vericone {
 
@@ -30,15 +25,5 @@ class Progress {
   std::string step_;
   std::chrono::steady_clock::time_point last_;
 };
-
-/// From here on `with` is asked of every table that run_with_bar() is to fill, and may give it `rows` that
-/// other processes compute (mpi/ranks.h). False where this process has helped another one with the table and
-/// has no more to do with it.
-void share_rows(std::function<bool(work::ResumableTable&)> with);
-
-/// Fills a table, or the part of it that was asked for, with a bar on standard error, called `label`. False
-/// where an interruption came first; a line on `out` then says how to go on.
-bool run_with_bar(work::ResumableTable table, work::StagedFolder& folder, const std::string& label,
-                  const OutputOptions& options, std::ostream& out);
 
 }  // namespace vericone

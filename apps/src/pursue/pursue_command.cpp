@@ -319,14 +319,7 @@ int pursue_command(CommandLine& line) {
   line.option("--random", pursue.random,
               "In place of one run: so many short ones, each with one vehicle hidden for 3 s")
       .within(0, 100'000);
-  part_option(line, pursue.part);
-  line.option("--out", pursue.out, "Folder for tables and pictures");
-  line.option("--threads", pursue.threads, "Of --starts and --random; 0: one per processor");
-  line.negative_flag("--no-figures", pursue.figures, "Tables only");
-  line.flag("--quiet", pursue.quiet, "No progress");
-  line.flag("--json", pursue.json, "Print JSON");
-  line.read();
-  keep_words(line, pursue);
+  read_job_line(line, pursue);
   return pursuit::run_pursue(pursue, std::cout);
 }
 

@@ -6,22 +6,14 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <ostream>
 #include <random>
-#include <sstream>
 
-#include "input/stopwatch.h"
+#include "job/job.h"
 #include "json/json_value.h"
-#include "output/figures.h"
 #include "output/number_text.h"
 #include "output/output_file.h"
-#include "output/part.h"
-#include "output/progress.h"
 #include "simulate/csv_row.h"
 #include "work/file_hash.h"
-#include "work/interrupt.h"
-#include "work/provenance.h"
-#include "work/threads.h"
 
 namespace vericone::pursuit {
 namespace {
@@ -62,23 +54,8 @@ double quantile(std::vector<double> values, double share) {
   return i + 1 < values.size() ? values[i] + (at - double(i)) * (values[i + 1] - values[i]) : values[i];
 }
 
-int finish(work::StagedFolder& folder, const PursueOptions& options, Json summary, const std::string& script,
-           int threads, double seconds, const std::string& text, std::ostream& out) {
-  write_whole(folder.path() / "summary.json", summary.dump(1) + "\n");
-  Json origin = provenance(options.command_line, threads, {options.scenario});
-  origin["seconds"] = seconds;
-  write_whole(folder.path() / "provenance.json", origin.dump(1) + "\n");
-  if (options.figures) draw_figures(script, folder.path());
-  const std::vector<fs::path> files =
-      folder.publish({"starts.png", "starts.pdf", "occlusions.png", "occlusions.pdf"});
-  if (options.json) {
-    out << summary.dump(1) << '\n';
-    return 0;
-  }
-  out << text;
-  for (const fs::path& file : files) out << "written             " << file.string() << '\n';
-  return 0;
-}
+/// That an earlier run of either may have left.
+const std::vector<std::string> kPictures{"starts.png", "starts.pdf", "occlusions.png", "occlusions.pdf"};
 
 /// One vehicle hidden for 3 s in a run of `kSeconds`, from a time of the scenario on.
 struct Trial {
@@ -183,14 +160,11 @@ std::string occlusion_row(const Pursuit& given, std::uint64_t run) {
 
 int run_starts(const Pursuit& pursuit, const PursueOptions& options, std::ostream& out) {
   if (!(options.within >= 0)) throw InputError("--within", to_text(options.within), "0 or more (m)");
-  work::StagedFolder folder(options.out, "--out");
-  const auto start = Clock::now();
   work::ResumableTable table{"starts.csv"};
   table.settings = settings_of(pursuit, options, ("starts within " + to_text(options.within) + " m").c_str());
   table.header = "start,dx [m],dy [m],mean_r [m],most_r [m],speed_error [m/s],layer [1]";
   table.count = options.starts;
   table.block = 2;
-  table.threads = threads_for(options.threads);
   table.row = [&](std::uint64_t i) {
     Random random(pursuit.seed, i);
     Pursuit one = pursuit;
@@ -211,73 +185,71 @@ int run_starts(const Pursuit& pursuit, const PursueOptions& options, std::ostrea
     row.pop_back();
     return row;
   };
-  if (!run_with_bar(table, folder, "starts", options, out)) return kExitInterrupted;
-  if (!options.part.empty())
-    return publish_part(options, folder, {table},
-                        provenance(options.command_line, table.threads, {options.scenario}), out);
-  const simulation::Table rows = read_table(folder.resumable(table.name));
-  const std::vector<double>& means = rows.find("mean_r")->numbers;
-  Json summary{{"settings", table.settings},
-               {"starts", means.size()},
-               {"mean_r",
-                {{"least", quantile(means, 0)},
-                 {"quartile", quantile(means, 0.25)},
-                 {"median", quantile(means, 0.5)},
-                 {"third_quartile", quantile(means, 0.75)},
-                 {"greatest", quantile(means, 1)}}},
-               {"layer", quantile(rows.find("layer")->numbers, 0.5)}};
-  std::ostringstream text;
-  text << "starts              " << means.size() << ", within " << number_text(options.within) << " m\n"
-       << "mean distance       least " << number_text(quantile(means, 0), 4) << ", quartiles "
-       << number_text(quantile(means, 0.25), 4) << " " << number_text(quantile(means, 0.5), 4) << " "
-       << number_text(quantile(means, 0.75), 4) << ", greatest " << number_text(quantile(means, 1), 4)
-       << " m\n";
-  return finish(folder, options, summary, "pursuit_starts.py", table.threads, seconds_since(start),
-                text.str(), out);
+  const auto tell = [&](Results& found, work::StagedFolder& folder) {
+    const simulation::Table rows = read_table(folder.resumable(table.name));
+    const std::vector<double>& means = rows.find("mean_r")->numbers;
+    found.summary = {{"settings", table.settings},
+                     {"starts", means.size()},
+                     {"mean_r",
+                      {{"least", quantile(means, 0)},
+                       {"quartile", quantile(means, 0.25)},
+                       {"median", quantile(means, 0.5)},
+                       {"third_quartile", quantile(means, 0.75)},
+                       {"greatest", quantile(means, 1)}}},
+                     {"layer", quantile(rows.find("layer")->numbers, 0.5)}};
+    found.text << "starts              " << means.size() << ", within " << number_text(options.within)
+               << " m\n"
+               << "mean distance       least " << number_text(quantile(means, 0), 4) << ", quartiles "
+               << number_text(quantile(means, 0.25), 4) << " " << number_text(quantile(means, 0.5), 4) << " "
+               << number_text(quantile(means, 0.75), 4) << ", greatest " << number_text(quantile(means, 1), 4)
+               << " m\n";
+    found.scripts = {"pursuit_starts.py"};
+    found.files = {table.name, "summary.json"};
+    found.old = kPictures;
+  };
+  return run_job({options, {options.scenario}, {{table, "starts"}}}, tell, out);
 }
 
 int run_random(const Pursuit& pursuit, const PursueOptions& options, std::ostream& out) {
   if (pursuit.eyes == Eyes::exact)
     throw InputError("--camera", "exact", "source or perspective, with --random");
-  work::StagedFolder folder(options.out, "--out");
-  const auto start = Clock::now();
   work::ResumableTable table{"occlusions.csv"};
   table.settings = settings_of(pursuit, options, "random occlusions");
   table.header = "run,body,hidden [s],said [s],regained [s],followed,cars,swaps,false_claims";
   table.count = options.random;
   table.block = 2;
-  table.threads = threads_for(options.threads);
   table.row = [&](std::uint64_t i) { return occlusion_row(pursuit, i); };
-  if (!run_with_bar(table, folder, "runs", options, out)) return kExitInterrupted;
-  if (!options.part.empty())
-    return publish_part(options, folder, {table},
-                        provenance(options.command_line, table.threads, {options.scenario}), out);
-  constexpr double kSoon = 0.5, kFrames = 3;  // s; pictures
-  const simulation::Table rows = read_table(folder.resumable(table.name));
-  const auto &regained = rows.find("regained")->numbers, &said = rows.find("said")->numbers,
-             &swaps = rows.find("swaps")->numbers, &lies = rows.find("false_claims")->numbers;
-  std::size_t soon = 0, quick = 0;
-  double all_swaps = 0, all_lies = 0;
-  for (std::size_t i = 0; i < rows.rows(); ++i) {
-    soon += regained[i] <= kSoon + 1e-9;
-    quick += said[i] <= kFrames * pursuit.picture_step + 1e-9;
-    all_swaps += swaps[i];
-    all_lies += lies[i];
-  }
-  const double runs = double(rows.rows());
-  Json summary{
-      {"settings", table.settings},        {"runs", rows.rows()}, {"regained_soon", double(soon) / runs},
-      {"said_soon", double(quick) / runs}, {"swaps", all_swaps},  {"false_claims", all_lies}};
-  std::ostringstream text;
-  text << "runs                " << rows.rows() << ", each with one vehicle hidden for "
-       << number_text(kHidden) << " s\n"
-       << "regained            within " << number_text(kSoon) << " s in "
-       << number_text(100 * double(soon) / runs, 4) << " %\n"
-       << "total said          within 3 pictures in " << number_text(100 * double(quick) / runs, 4) << " %\n"
-       << "claims              " << number_text(all_lies) << " pictures with a box beside its vehicle, "
-       << number_text(all_swaps) << " on another one\n";
-  return finish(folder, options, summary, "pursuit_occlusions.py", table.threads, seconds_since(start),
-                text.str(), out);
+  const auto tell = [&](Results& found, work::StagedFolder& folder) {
+    constexpr double kSoon = 0.5, kFrames = 3;  // s; pictures
+    const simulation::Table rows = read_table(folder.resumable(table.name));
+    const auto &regained = rows.find("regained")->numbers, &said = rows.find("said")->numbers,
+               &swaps = rows.find("swaps")->numbers, &lies = rows.find("false_claims")->numbers;
+    std::size_t soon = 0, quick = 0;
+    double all_swaps = 0, all_lies = 0;
+    for (std::size_t i = 0; i < rows.rows(); ++i) {
+      soon += regained[i] <= kSoon + 1e-9;
+      quick += said[i] <= kFrames * pursuit.picture_step + 1e-9;
+      all_swaps += swaps[i];
+      all_lies += lies[i];
+    }
+    const double runs = double(rows.rows());
+    found.summary = {
+        {"settings", table.settings},        {"runs", rows.rows()}, {"regained_soon", double(soon) / runs},
+        {"said_soon", double(quick) / runs}, {"swaps", all_swaps},  {"false_claims", all_lies}};
+    found.text << "runs                " << rows.rows() << ", each with one vehicle hidden for "
+               << number_text(kHidden) << " s\n"
+               << "regained            within " << number_text(kSoon) << " s in "
+               << number_text(100 * double(soon) / runs, 4) << " %\n"
+               << "total said          within 3 pictures in " << number_text(100 * double(quick) / runs, 4)
+               << " %\n"
+               << "claims              " << number_text(all_lies)
+               << " pictures with a box beside its vehicle, " << number_text(all_swaps)
+               << " on another one\n";
+    found.scripts = {"pursuit_occlusions.py"};
+    found.files = {table.name, "summary.json"};
+    found.old = kPictures;
+  };
+  return run_job({options, {options.scenario}, {{table, "runs"}}}, tell, out);
 }
 
 }  // namespace vericone::pursuit

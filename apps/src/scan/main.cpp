@@ -3,6 +3,7 @@
 // The program `vericone-scan`, which links Embree (Apache-2.0) and Open3D (MIT).
 #include <iostream>
 
+#include "command/output_line.h"
 #include "command/program.h"
 #include "json/json_value.h"
 #include "output/schemas.h"
@@ -15,16 +16,11 @@ int scan_command(vericone::CommandLine& line) {
   vericone::ScanOptions scan;
   line.option("scene", scan.scene, "Scene file with a mesh and lidars (docs/reference/formats.md)")
       .required();
-  line.option("--out", scan.out, "Folder for cloud, tables and pictures");
   line.option("--planes", scan.planes, "Planes through what is seen");
   line.option("--levels", scan.levels, "How often the beams are made twice as fine, and one more");
   line.option("--azimuth", scan.azimuth, "Of the plane of the picture, radians");
   line.option("--seed", scan.seed, "Seed of all random numbers");
-  line.negative_flag("--no-figures", scan.figures, "Cloud and tables only");
-  line.flag("--quiet", scan.quiet, "No progress");
-  line.flag("--json", scan.json, "Print JSON: scan.json");
-  line.read();
-  scan.command_line = line.text();
+  read_files_line(line, scan);
   vericone::run_scan(scan, std::cout);
   return 0;
 }

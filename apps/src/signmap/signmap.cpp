@@ -11,16 +11,15 @@
 #include <limits>
 #include <ostream>
 #include <random>
-#include <sstream>
 #include <string>
 #include <vector>
 
 #include "command/default_seed.h"
+#include "command/output_line.h"
 #include "commands.h"
+#include "job/job.h"
 #include "json/json_value.h"
 #include "output/output_file.h"
-#include "output/output_options.h"
-#include "output/results.h"
 #include "work/provenance.h"
 
 namespace vericone {
@@ -97,7 +96,7 @@ Json ellipsoid_json(const Ellipsoid& body) {
 /// `vericone signmap`: the answers in, on, out for all doubles around a velocity that grazes exactly, by
 /// plain double arithmetic and by the library, and the rung that decided. Writes signmap.csv, signmap.json,
 /// provenance.json and the figure to `out`. Throws InputError naming "--cells".
-void run_signmap(const SignMapOptions& options, std::ostream& out) {
+int run_signmap(const SignMapOptions& options, std::ostream& out) {
   if (options.cells < 3 || options.cells > 2001)
     throw InputError("--cells", std::to_string(options.cells), "between 3 and 2001");
   work::StagedFolder folder(options.out, "--out");
@@ -143,27 +142,20 @@ void run_signmap(const SignMapOptions& options, std::ostream& out) {
                   .old = {"signmap.pdf", "signmap.png"}};
   results.origin["seed"] = options.seed;
   results.origin["cells"] = cells;
-  std::ostringstream text;
-  text << cells * cells << " velocities around an exactly grazing one: plain doubles wrong on " << wrong
-       << "; decided by triage " << rungs.at(0) << ", interval " << rungs.at(1) << ", exact " << rungs.at(2)
-       << '\n';
-  publish(results, options, folder, text.str(), out);
+  results.text << cells * cells << " velocities around an exactly grazing one: plain doubles wrong on "
+               << wrong << "; decided by triage " << rungs.at(0) << ", interval " << rungs.at(1) << ", exact "
+               << rungs.at(2) << '\n';
+  return publish(results, options, folder, out);
 }
 
 }  // namespace
 
 int signmap_command(CommandLine& line) {
   SignMapOptions signmap;
-  line.option("--out", signmap.out, "Folder for table and picture");
   line.option("--cells", signmap.cells, "Doubles along each axis");
   line.option("--seed", signmap.seed, "Seed of the engagement");
-  line.negative_flag("--no-figures", signmap.figures, "Tables only");
-  line.flag("--json", signmap.json, "Print JSON: signmap.json");
-  line.quiet();
-  line.read();
-  signmap.command_line = line.text();
-  run_signmap(signmap, std::cout);
-  return 0;
+  read_files_line(line, signmap);
+  return run_signmap(signmap, std::cout);
 }
 
 }  // namespace vericone

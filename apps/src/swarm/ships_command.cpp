@@ -7,13 +7,12 @@
 #include <algorithm>
 #include <cmath>
 #include <ostream>
-#include <sstream>
 
+#include "job/job.h"
 #include "json/json_value.h"
 #include "output/number_text.h"
 #include "output/output_file.h"
 #include "output/progress.h"
-#include "output/results.h"
 #include "work/interrupt.h"
 #include "work/provenance.h"
 
@@ -90,7 +89,7 @@ Json pairs_json(const Voyage& voyage) {
   return all;
 }
 
-Json summary_of(const ShipsCommand& command, const FleetOptions& options, const Voyage& voyage) {
+Json summary_of(const SwarmCommand& command, const FleetOptions& options, const Voyage& voyage) {
   double last = 0;
   std::size_t arrived = 0;
   for (const double t : voyage.arrived)
@@ -121,8 +120,7 @@ Json summary_of(const ShipsCommand& command, const FleetOptions& options, const 
           {"pairs", pairs_json(voyage)}};
 }
 
-std::string text_of(const Json& summary, const Voyage& voyage) {
-  std::ostringstream out;
+void print(const Json& summary, const Voyage& voyage, std::ostream& out) {
   const auto number = [&](const char* key) {
     return summary[key].is_null() ? std::string("-") : number_text(summary[key].get<double>(), 4);
   };
@@ -146,10 +144,9 @@ std::string text_of(const Json& summary, const Voyage& voyage) {
   out << "arrived   " << count("arrived") << " of " << count("ships") << ", the last after "
       << number("last_arrival") << " s\n"
       << "commands  " << count("commands") << ", of them " << count("fallbacks") << " fallbacks\n";
-  return out.str();
 }
 
-void refuse_what_ships_have_not(const ShipsCommand& command) {
+void refuse_what_ships_have_not(const SwarmCommand& command) {
   const auto refuse = [&](const char* name, const std::string& value, const char* requirement) {
     throw InputError(name, value, requirement + command.start);
   };
@@ -168,7 +165,7 @@ bool is_of_ships(const std::string& start) {
   return std::find(names.begin(), names.end(), start) != names.end();
 }
 
-int run_ships(const ShipsCommand& command, std::ostream& out) {
+int run_ships(const SwarmCommand& command, std::ostream& out) {
   refuse_what_ships_have_not(command);
   const std::vector<Ship> ships = ships_of(command.start);
   FleetOptions options;
@@ -194,13 +191,15 @@ int run_ships(const ShipsCommand& command, std::ostream& out) {
   write_whole(folder.path() / "positions.csv", positions_csv(voyage));
   write_whole(folder.path() / "ships.csv", ships_csv(ships, voyage));
   write_whole(folder.path() / "pairs.csv", pairs_csv(voyage));
-  Results results{.summary = summary_of(command, options, voyage),
-                  .origin = provenance(command.command_line, 1, {}),
-                  .scripts = {"ships.py"},
-                  .files = {"positions.csv", "ships.csv", "pairs.csv", "summary.json"},
-                  .old = {"ships.pdf", "ships.png"}};
-  publish(results, command, folder, text_of(results.summary, voyage), out);
-  return voyage.kept() ? 0 : 1;
+  Results results;
+  results.summary = summary_of(command, options, voyage);
+  results.origin = provenance(command.command_line, 1, {});
+  results.scripts = {"ships.py"};
+  results.files = {"positions.csv", "ships.csv", "pairs.csv", "summary.json"};
+  results.old = {"ships.pdf", "ships.png"};
+  print(results.summary, voyage, results.text);
+  results.status = voyage.kept() ? 0 : 1;
+  return publish(results, command, folder, out);
 }
 
 }  // namespace vericone::ships

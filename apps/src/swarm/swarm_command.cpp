@@ -11,20 +11,17 @@
 #include <map>
 #include <optional>
 #include <ostream>
-#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "command/default_seed.h"
 #include "command/output_line.h"
 #include "commands.h"
+#include "job/job.h"
 #include "json/json_value.h"
 #include "output/number_text.h"
 #include "output/output_file.h"
-#include "output/output_options.h"
 #include "output/progress.h"
-#include "output/results.h"
 #include "swarm/ships_command.h"
 #include "work/interrupt.h"
 #include "work/provenance.h"
@@ -32,15 +29,6 @@
 
 namespace vericone::swarm {
 namespace {
-
-struct SwarmCommand : OutputOptions {
-  SwarmCommand() { out = "out/swarm"; }
-  std::string start, method = "proved";
-  std::uint64_t agents = 0, seed = kDefaultSeed;
-  std::optional<double> step, duration, sample;  // s
-  double lost = 0;
-  std::vector<double> current;  // of ships
-};
 
 /// A real building, scanned.
 constexpr const char* kRoom = R"(name: room
@@ -231,22 +219,21 @@ int run_swarm(SwarmCommand command, std::ostream& out) {
   write_whole(folder.path() / "positions.csv", positions_csv(flight));
   write_whole(folder.path() / "agents.csv", agents_csv(swarm, flight));
   write_whole(folder.path() / "obstacles.csv", obstacles_csv(swarm));
-  Json origin = provenance(command.command_line, options.threads, {});
-  origin["seconds"] = {{"stepping", flight.stepping}, {"proving", flight.proving}};
-  Results results{.summary = summary_of(command, swarm, flight),
-                  .origin = std::move(origin),
-                  .scripts = {"swarm.py"},
-                  .files = {"positions.csv", "agents.csv", "obstacles.csv", "summary.json"},
-                  .old = {"swarm.pdf", "swarm.png"}};
-  std::ostringstream text;
-  print_flight(results.summary, text);
+  Results results;
+  results.summary = summary_of(command, swarm, flight);
+  results.origin = provenance(command.command_line, options.threads, {});
+  results.origin["seconds"] = {{"stepping", flight.stepping}, {"proving", flight.proving}};
+  results.scripts = {"swarm.py"};
+  results.files = {"positions.csv", "agents.csv", "obstacles.csv", "summary.json"};
+  results.old = {"swarm.pdf", "swarm.png"};
+  print_flight(results.summary, results.text);
   const double each =
       flight.stepping / static_cast<double>(std::max<std::uint64_t>(flight.counts.commands, 1));
-  text << "time      " << number_text(1e6 * each, 3) << " us an agent step, "
-       << number_text(flight.proving, 3) << " s of proofs\n";
-  publish(results, command, folder, text.str(), out);
+  results.text << "time      " << number_text(1e6 * each, 3) << " us an agent step, "
+               << number_text(flight.proving, 3) << " s of proofs\n";
   const bool broken = !flight.touched.empty() || !flight.undecided.empty();
-  return options.method == Method::proved && broken ? 1 : 0;
+  results.status = options.method == Method::proved && broken ? 1 : 0;
+  return publish(results, command, folder, out);
 }
 
 }  // namespace
@@ -263,7 +250,6 @@ int swarm_command(CommandLine& line) {
   line.option("-N,--agents", swarm.agents, "Agents, 0: as many as the measured tables have, or the scenario");
   line.option("--seed", swarm.seed, "Seed of all random numbers");
   line.option("--method", swarm.method, "proved; orca, as published, changes velocities at once");
-  line.option("--out", swarm.out, "Folder for tables and picture");
   line.option("--step", swarm.step,
               "Between two commands, s; left out: the scenario's, or 0.125, of ships 10");
   line.option("--duration", swarm.duration,
@@ -272,25 +258,8 @@ int swarm_command(CommandLine& line) {
               "Between two rows of an agent in positions.csv, s; left out: 1, of ships 30");
   line.option("--lost", swarm.lost, "Of the messages of one agent to another the share that is lost");
   line.option("--current", swarm.current, "Of the water that ships sail, EAST,NORTH m/s").commas();
-  line.option("--threads", swarm.threads, "Threads, 0: one per processor");
-  line.negative_flag("--no-figures", swarm.figures, "Tables only");
-  line.flag("--quiet", swarm.quiet, "No progress");
-  line.flag("--json", swarm.json, "Print JSON");
-  line.read();
-  keep_words(line, swarm);
-  if (ships::is_of_ships(swarm.start)) {
-    ships::ShipsCommand command;
-    static_cast<OutputOptions&>(command) = swarm;
-    command.start = swarm.start;
-    command.agents = swarm.agents;
-    command.method = swarm.method;
-    command.lost = swarm.lost;
-    command.step = swarm.step;
-    command.duration = swarm.duration;
-    command.sample = swarm.sample;
-    command.current = swarm.current;
-    return ships::run_ships(command, std::cout);
-  }
+  read_output_line(line, swarm);
+  if (ships::is_of_ships(swarm.start)) return ships::run_ships(swarm, std::cout);
   return swarm::run_swarm(swarm, std::cout);
 }
 

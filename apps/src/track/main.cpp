@@ -3,6 +3,7 @@
 // The program `vericone-track`, which links OpenCV with its codecs (Apache-2.0; FFmpeg's are LGPL and GPL).
 #include <iostream>
 
+#include "command/output_line.h"
 #include "command/program.h"
 #include "track/track_command.h"
 
@@ -31,13 +32,8 @@ int track_command(vericone::CommandLine& line) {
       .needs(own);
   line.option("--frames", track.frames, "Pictures to look at, at most");
   line.option("--rate", track.rate, "Pictures a second, where the video does not say it; 30 if nobody does");
-  line.option("--out", track.out, "Folder for tables, video and picture");
   line.negative_flag("--no-video", track.video_out, "No video with the boxes");
-  line.negative_flag("--no-figures", track.figures, "No video and no picture of the tracks");
-  line.flag("--quiet", track.quiet, "No progress");
-  line.flag("--json", track.json, "Print JSON: metrics.json");
-  line.read();
-  track.command_line = line.text();
+  read_files_line(line, track);
   return vericone::run_track(track, std::cout);
 }
 

@@ -5,7 +5,6 @@
 #include <vericone/simulation/montecarlo/campaign.h>
 #include <vericone/simulation/run_tables.h>
 #include <vericone/simulation/trials.h>
-#include <vericone/work/staged_folder.h>
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -13,27 +12,19 @@
 #include <memory>
 #include <optional>
 #include <ostream>
-#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "command/output_line.h"
 #include "commands.h"
-#include "input/stopwatch.h"
+#include "job/job.h"
 #include "json/json_value.h"
 #include "output/number_text.h"
 #include "output/output_file.h"
-#include "output/output_options.h"
-#include "output/part.h"
-#include "output/progress.h"
-#include "output/results.h"
 #include "scenarios/read_scenario.h"
 #include "trials/encounter_trials.h"
 #include "work/file_hash.h"
-#include "work/interrupt.h"
-#include "work/provenance.h"
-#include "work/threads.h"
 
 namespace vericone::trials {
 namespace {
@@ -333,8 +324,6 @@ int run_trials(const TrialsOptions& given, std::ostream& out) {
   if (options.trial && !options.part.empty())
     throw InputError("--part", options.part, "left out with --trial");
   if (options.trial) return print_one(options, cells, out);
-  work::StagedFolder folder(options.out, "--out");
-  const auto start = Clock::now();
   work::ResumableTable table{"trials.csv"};
   table.settings = "# vericone trials, " + fs::path(options.scenario).filename().string() + " " +
                    sha256_of_file(options.scenario) + ", seed " + std::to_string(cells[0].scenario.seed) +
@@ -345,38 +334,36 @@ int run_trials(const TrialsOptions& given, std::ostream& out) {
                       sha256_of_file(options.encounters) + ", volumes " + joined(options.volumes);
   table.header = header_of(cells, with);
   table.count = options.trials;
-  table.threads = threads_for(options.threads);
   table.block = 10;
   table.row = [&](std::uint64_t i) {
     return with ? encounter_row(cells, i, *with) : row_of(cells, i, options.random);
   };
-  if (!run_with_bar(table, folder, "trials", options, out)) return kExitInterrupted;
   std::vector<fs::path> inputs{options.scenario};
   if (with) inputs.emplace_back(options.encounters);
-  Json origin = provenance(options.command_line, table.threads, inputs);
-  origin["seconds"] = seconds_since(start);
-  if (!options.part.empty()) return publish_part(options, folder, {table}, std::move(origin), out);
-  const fs::path file = folder.resumable(table.name);
-  const simulation::Table rows = simulation::table_of_csv(content_of(file), file.filename().string());
-  const std::vector<Found> found = found_of(rows, cells, with ? 6 + with->volumes.size() : 3, with ? 2 : 1);
-  Results results{.summary = to_json(found, options.trials),
-                  .origin = std::move(origin),
-                  .scripts = {"trials.py"},
-                  .summary_file = "trials.json",
-                  .files = {table.name, "trials.json"},
-                  .old = {"trials.pdf", "trials.png"}};
-  results.summary["scenario"] = scenario.name;
-  results.summary["settings"] = table.settings;
-  std::ostringstream text;
-  print(found, options.trials, text);
-  if (with) {
-    std::vector<std::string> names;
-    for (const Cell& cell : cells) names.push_back(cell.name);
-    print_encounters(results.summary["encounters"] = encounters_json(rows, names, *with), text);
-  }
-  if (!noisy(cells) && !with) text << "no pilot has a sensor: all trials are the same flight\n";
-  publish(results, options, folder, text.str(), out);
-  return 0;
+  return run_job(
+      {options, inputs, {{table, "trials"}}},
+      [&](Results& results, work::StagedFolder& folder) {
+        const fs::path file = folder.resumable(table.name);
+        const simulation::Table rows = simulation::table_of_csv(content_of(file), file.filename().string());
+        const std::vector<Found> found =
+            found_of(rows, cells, with ? 6 + with->volumes.size() : 3, with ? 2 : 1);
+        results.summary = to_json(found, options.trials);
+        results.summary["scenario"] = scenario.name;
+        results.summary["settings"] = table.settings;
+        results.summary_file = "trials.json";
+        results.scripts = {"trials.py"};
+        results.files = {table.name, "trials.json"};
+        results.old = {"trials.pdf", "trials.png"};
+        print(found, options.trials, results.text);
+        if (with) {
+          std::vector<std::string> names;
+          for (const Cell& cell : cells) names.push_back(cell.name);
+          print_encounters(results.summary["encounters"] = encounters_json(rows, names, *with), results.text);
+        } else if (!noisy(cells)) {
+          results.text << "no pilot has a sensor: all trials are the same flight\n";
+        }
+      },
+      out);
 }
 
 }  // namespace
@@ -413,15 +400,8 @@ int trials_command(CommandLine& line) {
   line.option("--volumes", trials.volumes,
               "Near misses: radius:half-height of upright cylinders about agents that no other is to enter")
       .commas();
-  part_option(line, trials.part);
-  line.option("--out", trials.out, "Folder for tables and picture");
-  line.option("--threads", trials.threads, "Threads, 0: one per processor");
-  line.negative_flag("--no-figures", trials.figures, "Tables only");
-  line.flag("--quiet", trials.quiet, "No progress");
-  line.flag("--json", trials.json, "Print JSON");
-  line.read();
+  read_job_line(line, trials);
   trials.trials_given = count.given();
-  keep_words(line, trials);
   return vericone::trials::run_trials(trials, std::cout);
 }
 

@@ -4,6 +4,7 @@
 #include <vericone/geometry/error.h>
 #include <iostream>
 
+#include "command/output_line.h"
 #include "command/program.h"
 #include "verify/verify_command.h"
 
@@ -16,6 +17,7 @@ int verify_command(vericone::CommandLine& line) {
       line.option("--pairs", verify.pairs, "Pairs of each family of sectors and cones, 0: none")
           .within(0, 10'000'000);
   line.option("--seed", verify.seed, "Seed of all random numbers");
+  vericone::part_option(line, verify.part, "reports alone: one of each predicate and family");
   line.option("--threads", verify.threads, "Threads, 0: one per processor");
   line.flag("--quiet", verify.quiet, "No progress");
   line.flag("--json", verify.json, "Print JSON");

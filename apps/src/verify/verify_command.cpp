@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "verify/verify_command.h"
 
-#include <unistd.h>
 #include <vericone/internal/verify/assembly/campaign.h>
 #include <vericone/internal/verify/planar/methods.h>
 #include <vericone/internal/verify/predicates/campaign.h>
@@ -9,39 +8,19 @@
 #include <vericone/verify/spatial/campaign.h>
 
 #include <algorithm>
-#include <chrono>
-#include <cstdio>
+#include <functional>
 #include <ostream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "json/json_value.h"
+#include "output/part.h"
+#include "output/progress.h"
 #include "work/interrupt.h"
 
 namespace vericone {
 namespace {
-
-/// One line on standard error: rewritten on a terminal, elsewhere printed once a step.
-class CaseProgress {
- public:
-  explicit CaseProgress(bool quiet) : quiet_(quiet) {}
-
-  void show(const std::string& what, std::uint64_t done, std::uint64_t total) {
-    if (quiet_) return;
-    const auto now = std::chrono::steady_clock::now();
-    if (!terminal_ && done < total) return;
-    if (done < total && now - last_ < std::chrono::milliseconds(200)) return;
-    last_ = now;
-    std::fprintf(stderr, "%s%-32s %llu/%llu%s", terminal_ ? "\r" : "", what.c_str(),
-                 static_cast<unsigned long long>(done), static_cast<unsigned long long>(total),
-                 terminal_ && done < total ? "" : "\n");
-    std::fflush(stderr);
-  }
-
- private:
-  bool quiet_, terminal_ = isatty(STDERR_FILENO) != 0;
-  std::chrono::steady_clock::time_point last_;
-};
 
 struct Results {
   std::vector<verify::PredicateReport> predicates;
@@ -88,9 +67,10 @@ constexpr verify::AgentKind kAgents[] = {verify::AgentKind::ball, verify::AgentK
                                          verify::AgentKind::hull};
 constexpr PieceKind kPieces[] = {PieceKind::triangle, PieceKind::ball, PieceKind::box, PieceKind::hull};
 
+/// The reports one after the other, or the part of them that was asked for: every N-th.
 Results run(const VerifyOptions& o) {
   Results results;
-  CaseProgress progress(o.quiet);
+  Progress progress(o.quiet);
   verify::PredicateOptions options;
   options.cases = o.cases;
   options.seed = o.seed;
@@ -98,42 +78,42 @@ Results run(const VerifyOptions& o) {
   options.truth_every = 64;
   options.stop = interrupted;
   options.progress = [&](const std::string& name, std::uint64_t done, std::uint64_t total) {
-    progress.show(name, done, total);
+    progress.show(name, double(done) / double(total));
   };
-  if (o.cases) results.predicates = verify::run_predicate_campaign(options);
-  if (!o.pairs) return results;
-
-  struct Method {
-    const char* name;
-    verify::PlanarAnswer (*answer)(const Ellipse&, const Ellipse&);
-    std::vector<verify::PlanarFamilyReport>* reports;
+  std::vector<std::pair<std::string, std::function<void()>>> reports;
+  if (o.cases)
+    for (const std::string& name : verify::predicate_names())
+      reports.emplace_back(name,
+                           [&, name] { results.predicates.push_back(verify::run_predicate(name, options)); });
+  const auto planar = [&](const char* name, verify::PlanarAnswer (*answer)(const Ellipse&, const Ellipse&),
+                          std::vector<verify::PlanarFamilyReport>& to) {
+    for (const auto family : verify::kAllPlanarFamilies)
+      reports.emplace_back(name, [&to, answer, family, &o] {
+        to.push_back(verify::run_planar_family(answer, family, o.pairs, o.seed, interrupted));
+      });
   };
-  const Method methods[] = {
-      {"sector_by_support", verify::answer_by_support, &results.by_support},
-      {"sector_by_degenerate_conics", verify::answer_by_degenerate_conics, &results.by_conics}};
-  for (const Method& method : methods)
-    for (const auto family : verify::kAllPlanarFamilies) {
-      if (interrupted()) return results;
-      method.reports->push_back(
-          verify::run_planar_family(method.answer, family, o.pairs, o.seed, interrupted));
-      progress.show(method.name, method.reports->size(), std::size(verify::kAllPlanarFamilies));
-    }
-  for (const auto family : verify::kAllSpatialFamilies) {
-    if (interrupted()) return results;
-    results.spatial.push_back(verify::run_spatial_family(family, o.pairs, o.seed, interrupted));
-    progress.show("cones in space", results.spatial.size(), std::size(verify::kAllSpatialFamilies));
+  if (o.pairs) {
+    planar("sector_by_support", verify::answer_by_support, results.by_support);
+    planar("sector_by_degenerate_conics", verify::answer_by_degenerate_conics, results.by_conics);
+    for (const auto family : verify::kAllSpatialFamilies)
+      reports.emplace_back("cones in space", [&, family] {
+        results.spatial.push_back(verify::run_spatial_family(family, o.pairs, o.seed, interrupted));
+      });
+    for (const auto agent : kAgents)
+      for (const auto pieces : kPieces)
+        reports.emplace_back("meshes, clouds and maps", [&, agent, pieces] {
+          verify::AssemblyOptions assembly;
+          assembly.cases = o.pairs;
+          assembly.seed = o.seed;
+          assembly.stop = interrupted;
+          results.assemblies.push_back(verify::run_assembly_family(agent, pieces, assembly));
+        });
   }
-  for (const auto agent : kAgents)
-    for (const auto pieces : kPieces) {
-      if (interrupted()) return results;
-      verify::AssemblyOptions assembly;
-      assembly.cases = o.pairs;
-      assembly.seed = o.seed;
-      assembly.stop = interrupted;
-      results.assemblies.push_back(verify::run_assembly_family(agent, pieces, assembly));
-      progress.show("meshes, clouds and maps", results.assemblies.size(),
-                    std::size(kAgents) * std::size(kPieces));
-    }
+  const Part part = part_of(o.part).value_or(Part{});
+  for (std::size_t i = part.number - 1; i < reports.size() && !interrupted(); i += part.of) {
+    progress.show(reports[i].first, double(i) / double(reports.size()));
+    reports[i].second();
+  }
   return results;
 }
 
@@ -215,6 +195,7 @@ std::string what_ran(const VerifyOptions& o, const Results& r) {
             " of each predicate, in blocks of " + std::to_string(verify::kCasesPerBlock);
     if (least < most) text += ", " + std::to_string(least) + " of the slowest";
   }
+  if (!o.part.empty()) text += (text.empty() ? "" : "; ") + ("part " + o.part + " of the reports");
   if (o.pairs)
     text += (text.empty() ? "" : "; ") + ("--pairs " + std::to_string(o.pairs)) + " of each family";
   return text;

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <iosfwd>
+#include <string>
 
 #include "command/default_seed.h"
 
@@ -13,6 +14,7 @@ struct VerifyOptions {
   std::uint64_t pairs = 30;       // of each family of the sectors and cones; 0: none
   std::uint64_t seed = kDefaultSeed;
   unsigned threads = 0;  // 0: one per processor
+  std::string part;      // K/N: of the reports every N-th alone
   bool quiet = false;
   bool json = false;
 };

@@ -114,6 +114,9 @@ class Populations(unittest.TestCase):
         self.assertEqual((result.returncode, result.stderr),
                          (2, f"vericone: {self.path('population.yaml')}: got nothing, must be a population: a mapping of fields "
                              "(docs/reference/formats.md)\n"))
+        result = run("campaign", "-N", "1", "-N", "2")
+        self.assertEqual((result.returncode, result.stderr),
+                         (2, "vericone: --engagements: given 2 times, must be given once (see vericone campaign --help)\n"))
         wide = FIXED.replace("vy: {normal: [0, 1]}", "vy: {uniform: [-1e308, 1e308]}")
         self.assertIn("drawn.agent.vy.uniform: got ", run("campaign", "--verdicts", self.file(wide), "--out", self.path("no")).stderr)
 
