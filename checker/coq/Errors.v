@@ -1,4 +1,5 @@
-(* Apart for all errors of the obstacle's position and of the velocity within sets. *)
+(* Errors of the obstacle's position and of the velocity within sets: apart for all of them; or there is one with which
+   the two meet, and one with which they do not. *)
 From Vericone Require Export Check.
 Open Scope R_scope.
 
@@ -120,4 +121,83 @@ Proof.
   apply andb_prop in H. destruct H as [_ H]. apply of_numbered in IA, IB.
   destruct IA as (na & IA & ->). destruct IB as (nb & IB & ->).
   apply (check_for_real _ _ _ _ _ _ _ _ _ _ H na nb IA IB e f Ie If t x y T HA HB).
+Qed.
+
+(* The same, moved. *)
+Fixpoint moved (p : vec R) (c : convex R) : convex R :=
+  match c with
+  | Ellipsoid c F => Ellipsoid (add p c) F
+  | Shaped c M => Shaped (add p c) M
+  | Ball c r => Ball (add p c) r
+  | Box lo hi => Box (add p lo) (add p hi)
+  | Hull ps => Hull (map (add p) ps)
+  | Cut c q A l => Cut (moved p c) (add p q) A l
+  end.
+(* The obstacle moved by p, the agent's velocity changed by v. *)
+Definition with_error (p v : vec R) (k : case R) : case R :=
+  Case (agent k) (map (moved p) (obstacle k)) (add (vA k) v) (vB k) (when k).
+Definition depends (k : case R) (P W : convex R) : Prop :=
+  (exists p v, inside P p /\ inside W v /\ in_cone (with_error p v k)) /\
+  (exists p v, inside P p /\ inside W v /\ out 0 (with_error p v k)).
+
+(* What is moved is what it was, elsewhere. *)
+Lemma mean_moved : forall p ps ws, length ws = length ps ->
+  mean ws (map (add p) ps) = add (scale (total ws) p) (mean ws ps).
+Proof.
+  intros p. induction ps as [|q ps IH]; intros [|w ws] L; try discriminate L; [cbn; veq|].
+  cbn [mean map]. rewrite IH by (injection L; auto). unfold total. cbn [fold_right].
+  generalize (fold_right Rplus 0%R ws) (mean ws ps). clear. intros t m. veq.
+Qed.
+Lemma inside_moved : forall p c x, inside c x -> inside (moved p c) (add p x).
+Proof.
+  intros p. induction c as [c F|c M|c r|lo hi|ps|c IH q A l]; intros x I; cbn [moved inside] in *.
+  - destruct I as (u & U & ->). exists u. split; [exact U|]. generalize (mul F u). clear. intros m. veq.
+  - intros n. replace (sub (add p x) (add p c)) with (sub x c) by (clear; veq). apply I.
+  - destruct I as [R I]. split; [exact R|]. replace (sub (add p x) (add p c)) with (sub x c) by (clear; veq). exact I.
+  - destruct p as [a b d], x as [e f g], lo as [h i j], hi as [k l m]. cbn [add vx vy vz] in *. lra.
+  - destruct I as (ws & L & W & T & ->). exists ws. rewrite map_length. repeat (split; [assumption|]).
+    rewrite mean_moved, T by exact L. generalize (mean ws ps). clear. intros m. veq.
+  - destruct I as [I K]. split; [apply IH, I|]. replace (sub (add p x) (add p q)) with (sub x q) by (clear; veq). exact K.
+Qed.
+
+Fixpoint movedq (p : vec Q) (c : convex Q) : convex Q :=
+  match c with
+  | Ellipsoid c F => Ellipsoid (addq p c) F
+  | Shaped c M => Shaped (addq p c) M
+  | Ball c r => Ball (addq p c) r
+  | Box lo hi => Box (addq p lo) (addq p hi)
+  | Hull ps => Hull (map (addq p) ps)
+  | Cut c q A l => Cut (movedq p c) (addq p q) A l
+  end.
+Definition with_errorq (p v : vec Q) (k : case Q) : case Q :=
+  Case (agent k) (map (movedq p) (obstacle k)) (addq (vA k) v) (vB k) (when k).
+Lemma rc_moved : forall p c, rc (movedq p c) = moved (rv p) (rc c).
+Proof.
+  intros p. induction c as [c F|c M|c r|lo hi|ps|c IH q A l]; cbn [movedq moved rc]; rewrite ?rv_add; try reflexivity.
+  - rewrite !map_map. f_equal. apply map_ext. intros q. apply rv_add.
+  - rewrite IH. reflexivity.
+Qed.
+Lemma rk_with_error : forall p v k, rk (with_errorq p v k) = with_error (rv p) (rv v) (rk k).
+Proof.
+  intros p v k. unfold rk, with_errorq, with_error. cbn [agent obstacle vA vB when]. rewrite rv_add, !map_map.
+  f_equal. apply map_ext. intros c. apply rc_moved.
+Qed.
+
+(* An error of each kind: of the position, of the velocity, and what proves it. *)
+Definition check_one (says : case Q -> claim) (k : case Q) (P W : convex Q) (e : vec Q * vec Q * proof) : bool :=
+  let '(p, v, its) := e in member false P [] p && member false W [] v && check (says (with_errorq p v k)) its.
+Definition check_depends (k : case Q) (P W : convex Q) (collides passes : vec Q * vec Q * proof) : bool :=
+  check_one InCone k P W collides && check_one (Out 0) k P W passes.
+Theorem check_depends_sound : forall k P W c p, check_depends k P W c p = true -> depends (rk k) (rc P) (rc W).
+Proof.
+  intros k P W c p H. unfold check_depends in H. apply andb_prop in H. destruct H as [C O].
+  assert (One : forall says e, check_one says k P W e = true -> exists p v, inside (rc P) (rv p) /\ inside (rc W) (rv v) /\
+    meaning (says (with_errorq p v k))).
+  { intros says [[q v] its] K. cbn [check_one] in K. apply andb_prop in K. destruct K as [K S]. apply andb_prop in K.
+    destruct K as [IP IW]. apply member_inside in IP, IW. exists q, v. split; [apply IP|]. split; [apply IW|].
+    apply (check_sound _ _ S). }
+  destruct (One _ _ C) as (q & v & IP & IW & M). destruct (One _ _ O) as (q' & v' & IP' & IW' & M').
+  cbn [meaning] in M, M'. rewrite rk_with_error in M, M'. rewrite Q2R_zero in M'. split.
+  - exists (rv q), (rv v). auto.
+  - exists (rv q'), (rv v'). auto.
 Qed.

@@ -64,6 +64,11 @@ let answer line =
   match
     match Reader.statement (Json.parse line) with
     | Reader.Verdict (says, claim, proof) -> let proof = proof () in told (C.check claim proof) (say_verdict says claim)
+    | Reader.Depends (k, positions, velocities, proofs) ->
+      let collides, passes = proofs () in
+      told (C.check_depends k positions velocities collides passes)
+        (Printf.sprintf "depends: with some errors they meet, with some they do not. %s; errors of the obstacle's position in {%s}, of the agent's velocity in {%s}"
+           (say_case k true) (say_piece positions) (say_piece velocities))
     | Reader.Robust (d, k, positions, velocities, proof) ->
       let proof = proof () in
       told (C.check_errors d k positions velocities proof)

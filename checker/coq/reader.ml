@@ -308,8 +308,10 @@ and runs value =
 
 (* Claims. *)
 
+type one_error = (C.q C.vec * C.q C.vec) * C.proof
 type statement =
   | Verdict of string * C.claim * (unit -> C.proof)
+  | Depends of C.q C.case * C.q C.convex * C.q C.convex * (unit -> one_error * one_error)
   | Robust of C.q * C.q C.case * C.q C.convex * C.q C.convex * (unit -> C.error_proof)
   | Fit of C.q C.body * C.q C.body * (unit -> C.fit_proof)
   | Run of C.run_claim * (unit -> C.run_proof list)
@@ -369,10 +371,10 @@ let rec error_proof sides sets value : C.error_proof =
   | _ -> malformed "a proof must have a rule"
 
 let verdict says claim proof_read =
-  let moves = List.mem says ["out"; "in"; "on"] in
+  let moves = List.mem says ["out"; "in"; "on"; "depends"] in
   let errors = ["position_error"; "velocity_error"] in
   let read = fields "the claim" (["says"; "agent"; "obstacle"] @ (if moves then ["horizon"] else []))
-      (("id" :: (if says = "out" || says = "disjoint" then ["by"] else [])) @ (if says = "out" || says = "in" then errors else [])) claim in
+      (("id" :: (if says = "out" || says = "disjoint" then ["by"] else [])) @ (if List.mem says ["out"; "in"; "depends"] then errors else [])) claim in
   let sets = List.filter (fun name -> List.mem_assoc name read) errors in
   if sets <> [] && says = "in" then unknown "in for all errors";
   identity read;
@@ -385,17 +387,28 @@ let verdict says claim proof_read =
                  when0 = { from = rational from; until = Option.map rational until } } in
   let by = match optional "by" read with Some d -> not_negative d | None -> Q.zero in
   let claim = match says with
-    | "out" | "disjoint" -> C.Out (rational by, case)
+    | "out" | "disjoint" | "depends" -> C.Out (rational by, case)
     | "in" | "overlapping" -> C.InCone case
     | _ -> C.OnCone case in
   form (C.well_formed claim) "a box with low > high, or a shape that is not symmetric and positive definite";
   let opposite = C.{ vx = Q.sub v_a.vx v_b.vx; vy = Q.sub v_a.vy v_b.vy; vz = Q.sub v_a.vz v_b.vz } in
   let sides = { agent_pieces = List.length agent; obstacle_pieces = List.length obstacle; by = Q.sign by > 0; moving_w = opposite } in
-  if sets = [] then Verdict (says, claim, fun () -> proof sides proof_read)
+  if sets = [] && says <> "depends" then Verdict (says, claim, fun () -> proof sides proof_read)
   else begin
     let positions = error_set "position_error" read and velocities = error_set "velocity_error" read in
     form (C.well_formed_piece positions && C.well_formed_piece velocities) "a box of errors below 0";
-    Robust (rational by, case, positions, velocities, fun () -> error_proof sides sets proof_read)
+    let one name value =
+      let read = fields name ["proof"] ["position"; "velocity"] (field name value) in
+      let change name = match optional name read with Some x -> vector x | None -> origin in
+      let v = change "velocity" in
+      let faster = C.{ vx = Q.add opposite.vx v.vx; vy = Q.add opposite.vy v.vy; vz = Q.add opposite.vz v.vz } in
+      ((rational_vector (change "position"), rational_vector v), proof { sides with moving_w = faster } (field "proof" read)) in
+    let both () =
+      let read = fields "the proof" ["rule"; "collides"; "passes"] [] proof_read in
+      if text "rule" read <> "errors" then raise (Refused "errors is the rule for depends");
+      (one "collides" read, one "passes" read) in
+    if says = "depends" then Depends (case, positions, velocities, both)
+    else Robust (rational by, case, positions, velocities, fun () -> error_proof sides sets proof_read)
   end
 
 (* Runs. *)
@@ -552,15 +565,16 @@ let statement value =
     | Object members -> (match List.assoc_opt "says" members with Some (Text t) -> t | _ -> malformed "a claim must say something")
     | _ -> malformed "a claim is missing" in
   let found = match says with
-    | "out" | "in" | "on" | "disjoint" | "overlapping" | "touching" -> verdict says claim (field "proof" read)
+    | "out" | "in" | "on" | "disjoint" | "overlapping" | "touching" | "depends" -> verdict says claim (field "proof" read)
     | "apart" -> run claim (field "proof" read)
     | "meet" | "near" -> meeting says claim (field "proof" read)
     | "inside" -> fit claim (field "proof" read)
-    | "depends" | "passed" | "stays" -> unknown ("the claim " ^ says)
+    | "passed" | "stays" -> unknown ("the claim " ^ says)
     | _ -> malformed ("an unknown claim: " ^ says) in
   (match answer with
    | Some members ->
-     (match List.assoc_opt "verdict" members with
+     let unsure = match found with Depends _ | Robust _ -> List.mem_assoc "robust" members | _ -> false in
+     (match List.assoc_opt (if unsure then "robust" else "verdict") members with
       | None -> ()
       | Some verdict -> if verdict <> Text says then raise (Refused "the answer's verdict is that of its certificate"))
    | None -> ());
