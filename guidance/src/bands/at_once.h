@@ -40,6 +40,12 @@ class Curve {
   virtual std::optional<Range> about(double q, const Vector3d& n, double most, double size) const = 0;
   /// Values between two hits that are hits of a convex set of velocities too; asks for single velocities.
   virtual bool all_hit(double from, double to, const std::function<bool(const Vector3d&)>& hit) const = 0;
+  /// Of a closed one: with it the agent comes nearest to the middle of what is at c and moves with u, or does
+  /// so soonest; to rounding.
+  virtual std::optional<double> towards(const Vector3d& c, const Vector3d& u) const {
+    static_cast<void>(c), static_cast<void>(u);
+    return std::nullopt;
+  }
 };
 
 /// Headings q clockwise from y, at one speed.
@@ -56,12 +62,13 @@ class Headings : public Curve {
 
   // speed (n_x sin q + n_y cos q) < most - n.rest: all but an arc about the direction of n.
   std::optional<Range> about(double q, const Vector3d& n, double most, double size) const override {
-    if (speed_ == 0) return Range{q - kPi, q + kPi};  // all headings are one velocity
+    const Range all_about{q - 2 * kPi, q + 2 * kPi};
+    if (speed_ == 0) return all_about;  // all headings are one velocity
     const double all =
         size + n.cwiseAbs().dot(rest_.cwiseAbs()) + speed_ * (std::abs(n.x()) + std::abs(n.y()));
     const double level = most - n.dot(rest_) - kRoundings * all;
     const double most_along = speed_ * std::hypot(n.x(), n.y()) * (1 + 8 * 0x1p-53);
-    if (level > most_along) return Range{q - kPi, q + kPi};
+    if (level > most_along) return all_about;
     if (!(level > -most_along)) return std::nullopt;
     const double half = std::acos(level / most_along) + 0x1p-49;
     const double off = std::remainder(q - std::atan2(n.x(), n.y()), 2 * kPi);
@@ -77,6 +84,18 @@ class Headings : public Curve {
     if (half > 0.5) return false;
     const double middle = from + half, out = speed_ / std::cos(half);
     return hit(rest_ + out * Vector3d(std::sin(middle), std::cos(middle), 0));
+  }
+
+  /// On a collision course u + c / t, the earliest of this speed, seen from above.
+  std::optional<double> towards(const Vector3d& c, const Vector3d& u) const override {
+    const Eigen::Vector2d m = (u - rest_).head<2>(), p = c.head<2>();
+    const double square = p.squaredNorm(), half = m.dot(p),
+                 root = half * half - square * (m.squaredNorm() - speed_ * speed_);
+    const double rate = square > 0 ? std::max(0.0, (std::sqrt(std::max(root, 0.0)) - half) / square) : 0;
+    const Eigen::Vector2d v = m + rate * p;
+    const double heading = std::atan2(v.x(), v.y());
+    if (!std::isfinite(heading)) return std::nullopt;
+    return heading < 0 ? heading + 2 * kPi : heading;
   }
 
  private:
@@ -104,6 +123,15 @@ class Line : public Curve {
   double farthest_;  // q
 };
 
+/// Whether freed_by(plane, q), the values about q that are free by a plane found before, are all of these.
+template <typename FreedBy>
+bool some_plane_frees(const Part& part, double from, double to, const FreedBy& freed_by) {
+  return std::any_of(part.planes.begin(), part.planes.end(), [&](const SafeHalfSpace& half) {
+    const std::optional<Range> about = freed_by(half, 0.5 * (from + to));
+    return about && about->from <= from && to <= about->to;
+  });
+}
+
 /// Along a curve of velocities, keeping a margin from a part.
 class OfVelocity : public Question {
  public:
@@ -111,20 +139,29 @@ class OfVelocity : public Question {
       : part_(part), horizon_(horizon), margin_(margin), curve_(curve) {}
 
   std::optional<Range> free_about(double q) const override {
-    const Vector3d& other = part_.velocity;
     const auto half = safe(part_, curve_.velocity(q), horizon_, margin_);
     if (!half) return std::nullopt;
-    const double most = half->most(horizon_), along = half->normal.dot(other);
-    const auto about = curve_.about(q, half->normal, most + along,
-                                    std::abs(most) + half->normal.cwiseAbs().dot(other.cwiseAbs()));
+    constexpr std::size_t kMostKept = 8;
+    if (part_.planes.size() < kMostKept) part_.planes.push_back(*half);
+    const auto about = freed_by(*half, q);
     return about ? about : Range{q, q};  // of itself, at least
   }
+  bool known_free(double from, double to) const override {
+    return some_plane_frees(part_, from, to,
+                            [this](const auto& half, double q) { return freed_by(half, q); });
+  }
   bool is_hit(double q) const override { return hit(curve_.velocity(q)); }
+  std::optional<double> likeliest() const override { return curve_.towards(part_.apart, part_.velocity); }
   bool all_hit(double from, double to) const override {
     return curve_.all_hit(from, to, [this](const Vector3d& v) { return hit(v); });
   }
 
  private:
+  std::optional<Range> freed_by(const SafeHalfSpace& half, double q) const {
+    const double most = half.most(horizon_), along = half.normal.dot(part_.velocity);
+    return curve_.about(q, half.normal, most + along,
+                        std::abs(most) + half.normal.cwiseAbs().dot(part_.velocity.cwiseAbs()));
+  }
   bool hit(const Vector3d& v) const { return comes_nearer(part_, v, horizon_, margin_); }
 
   const Part& part_;
@@ -153,6 +190,10 @@ class OfAltitude : public Question {
     if (std::abs(n.dot(w)) < 1e-3 * n.norm() * w.norm()) n -= n.dot(w) / w.squaredNorm() * w;
     const auto range = freed_by(n, q);
     return range ? range : Range{q, q};  // of itself, at least
+  }
+  bool known_free(double from, double to) const override {
+    return some_plane_frees(part_, from, to,
+                            [this](const auto& half, double q) { return freed_by(half.normal, q); });
   }
   bool is_hit(double q) const override {
     if (meets(higher(q, part_.swollen()).verdict(level_, part_.velocity, horizon_))) return true;

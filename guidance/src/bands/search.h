@@ -22,6 +22,14 @@ class Question {
   /// All values about q that one plane proves to be free.
   virtual std::optional<Range> free_about(double q) const = 0;
   virtual bool is_hit(double q) const = 0;
+  /// Of a closed quantity, where a hit is likeliest, if that is known: the plane there frees most, if it is
+  /// none.
+  virtual std::optional<double> likeliest() const { return std::nullopt; }
+  /// Whether a plane that is known already frees all values between two.
+  virtual bool known_free(double from, double to) const {
+    static_cast<void>(from), static_cast<void>(to);
+    return false;
+  }
   /// All values between two hits; false says nothing.
   virtual bool all_hit(double from, double to) const = 0;
   /// Narrower ranges are neither free nor conflict.
@@ -51,22 +59,33 @@ class Search {
   std::vector<Range> free, hit;  // of a closed curve beyond its ends too, by a turn at most
 
   void run() {
-    const double low = domain_.low, high = domain_.high, turn = high - low;
+    double low = domain_.low, high = domain_.high;
+    const double turn = high - low;
     if (turn == 0) {
       const State state = look(low);
       if (state != State::neither) (state == State::free ? free : hit).push_back({low, high});
       return;
     }
+    if (!domain_.closed && question_.known_free(low, high)) return free.push_back({low, high});
     if (!domain_.closed) return divide(low, high, question_.is_hit(low), question_.is_hit(high));
+    if (const auto likeliest = question_.likeliest()) {
+      low += std::clamp(*likeliest - low, 0.0, turn);
+      if (question_.is_hit(low)) low += low < high - 0.5 * turn ? 0.5 * turn : -0.5 * turn;
+      high = low + turn;
+    }
     const State state = look(low);
     if (state != State::free) return divide(low, high, state == State::hit, state == State::hit);
     const Range own = found_;
-    double from = march(own.from, low - turn), again = from + turn;
-    double to = own.to < again ? march(own.to, again) : again;
-    if (to >= again) return free.push_back({low, high});
-    const auto first = first_hit(to, again), last = first_hit(again, to);
-    free.push_back({again - turn, to});
-    divide(first.value_or(to), last.value_or(again), first.has_value(), last.has_value());
+    const Range everything{low - turn, high + turn};  // by more than a turn, which is no double
+    if (own.to - own.from >= turn) return free.push_back(everything);
+    End again = march(own.from, low - turn);
+    again.at += turn;
+    if (again.met) *again.met += turn;
+    End to = own.to < again.at ? march(own.to, again.at) : again;
+    if (to.at >= again.at) return free.push_back(everything);
+    const auto first = first_hit(to, again.at), last = first_hit(again, to.at);
+    free.push_back({again.at - turn, to.at});
+    divide(first.value_or(to.at), last.value_or(again.at), first.has_value(), last.has_value());
   }
 
  private:
@@ -82,39 +101,59 @@ class Search {
     return question_.is_hit(q) ? State::hit : State::neither;
   }
 
-  /// From an end of what is free to where it really ends, no farther than `end`. Where a plane goes no
-  /// farther than where it was asked for, a value a little beyond is asked.
-  double march(double q, double end) {
+  /// Where what is free ends, and a hit beyond it where one is known.
+  struct End {
+    double at;
+    std::optional<double> met;
+  };
+
+  /// From an end of what is free, free itself, to where it really ends, no farther than `end`. Where a plane
+  /// goes no farther than where it was asked for, a value a little beyond is asked: first whether it is hit,
+  /// as most are.
+  End march(double q, double end) {
     const double sign = end > q ? 1 : -1;
     double beyond = 0;
+    std::optional<double> met;
     for (int step = 0; step < 60 && sign * (end - q) > 0; ++step) {
-      const State state = look(q + sign * beyond);
-      if (state == State::hit) break;
-      if (state == State::neither) {
-        beyond = std::max(4 * beyond, 2 * finest_);
-        continue;
+      const double there = q + sign * beyond;
+      ++looks_;
+      if (beyond > 0 && question_.is_hit(there)) {
+        met = there;
+        break;
       }
-      const double next = sign > 0 ? found_.to : found_.from, back = sign > 0 ? found_.from : found_.to;
-      if (sign * (back - q) > 0) break;  // not joined
-      if (sign * (next - q) > finest_) {
-        q = next;
-        beyond = 0;
-      } else {
-        beyond = std::max(4 * beyond, 2 * finest_);
+      const auto range = question_.free_about(there);
+      if (range) {
+        const double next = sign > 0 ? range->to : range->from, back = sign > 0 ? range->from : range->to;
+        if (sign * (back - q) > 0) break;  // not joined
+        if (sign * (next - q) > finest_) {
+          q = next;
+          beyond = 0;
+          continue;
+        }
       }
+      beyond = std::max(4 * beyond, 2 * finest_);
     }
-    return sign > 0 ? std::min(q, end) : std::max(q, end);
+    return {sign > 0 ? std::min(q, end) : std::max(q, end), met};
   }
 
   /// From an end of what is free towards `end`: where the first hit is, found by steps that grow, and then
-  /// brought as near as can be; `q` goes on to where what is free then ends. Nothing where that is not known.
-  std::optional<double> first_hit(double& q, double end) {
+  /// brought as near as can be; it goes on to where what is free then ends. Nothing where that is not known.
+  std::optional<double> first_hit(End& free_end, double end) {
+    double& q = free_end.at;
     const double sign = end > q ? 1 : -1;
-    double step = finest_;
-    while (step < std::abs(end - q) && !question_.is_hit(q + sign * step)) step *= 4;
-    if (!(step < std::abs(end - q)) && !question_.is_hit(end)) return std::nullopt;
-    double first = step < std::abs(end - q) ? q + sign * step : end;
-    while (std::abs(first - q) > finest_ && looks_ < kMostLooks) {
+    const auto before_end = [&](double at) { return sign * (end - at) > 0; };
+    double first = end;
+    if (free_end.met && before_end(*free_end.met)) {
+      first = *free_end.met;
+    } else {
+      double step = finest_;
+      while (before_end(q + sign * step) && !question_.is_hit(q + sign * step)) step *= 4;
+      if (before_end(q + sign * step))
+        first = q + sign * step;
+      else if (!question_.is_hit(end))
+        return std::nullopt;
+    }
+    while (std::abs(first - q) > 2.5 * finest_ && looks_ < kMostLooks) {
       const double between = 0.5 * (q + first);
       const State state = look(between);
       // Nearly at the end; or nothing is known of what is between.
@@ -123,7 +162,8 @@ class Search {
       if (state == State::hit) first = between;
       if (state != State::free) continue;
       if (sign * ((sign > 0 ? found_.from : found_.to) - q) > 0) return std::nullopt;  // not joined
-      q = march(sign > 0 ? found_.to : found_.from, first);
+      free_end = march(sign > 0 ? found_.to : found_.from, first);
+      if (free_end.met && sign * (first - *free_end.met) > 0) first = *free_end.met;
     }
     return first;
   }
@@ -143,11 +183,11 @@ class Search {
       return;
     }
     const Range own = found_;
-    Range all{march(std::max(own.from, from), from), march(std::min(own.to, to), to)};
-    const auto last = first_hit(all.from, from), first = first_hit(all.to, to);
-    free.push_back(all);
-    divide(from, last.value_or(all.from), hit_from, last.has_value());
-    divide(first.value_or(all.to), to, first.has_value(), hit_to);
+    End low = march(std::max(own.from, from), from), high = march(std::min(own.to, to), to);
+    const auto last = first_hit(low, from), first = first_hit(high, to);
+    free.push_back({low.at, high.at});
+    divide(from, last.value_or(low.at), hit_from, last.has_value());
+    divide(first.value_or(high.at), to, first.has_value(), hit_to);
   }
 
   static constexpr int kMostLooks = 2000;

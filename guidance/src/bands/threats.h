@@ -28,6 +28,9 @@ struct Part {
   std::size_t intruder;
   Eigen::Vector3d apart;  // m, between balls about them
   double reach;           // m, of both balls and the margin
+  /// Some of the planes that were found between them, less the margin: what one quantity asked for often
+  /// frees all of another.
+  mutable std::vector<SafeHalfSpace> planes = {};
 
   bool exact() const { return !truth; }  // they are what the bodies are, not more
   const Pair& swollen() const { return inner ? *inner : pair; }
