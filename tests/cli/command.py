@@ -10,6 +10,8 @@ import sys
 
 VERICONE = os.path.abspath(os.environ["VERICONE"])
 SOURCE = os.environ["VERICONE_SOURCE"]
+sys.path.append(os.path.join(os.path.dirname(os.path.dirname(os.path.abspath(__file__))), "support"))
+from drawn import drawn  # noqa: E402, F401
 
 
 def contents(folder):

@@ -247,6 +247,8 @@ class FitCertificates(Files):
 
 
 class FitRealFiles(Files):
+    PARTS = 3
+
     def prove(self, file, points, *arguments):
         result = fit(file, *arguments)
         self.assertTrue(result["certified"])

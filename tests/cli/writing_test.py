@@ -16,6 +16,7 @@ import time
 import unittest
 
 from bad_input_cases import street
+from command import drawn
 from hostile_test import SCENARIO, SCENE, VERICONE, InFolder
 
 PROGRAMS = os.environ.get("VERICONE_PROGRAMS", "fit scan track verify").split()
@@ -204,10 +205,8 @@ class WritersStopped(InPreparedFolder):
 
     def test_whole_files_all_or_none(self):
         rng = random.Random(int(os.environ.get("VERICONE_SEED", "1")))
-        for name, words in WRITERS.items():
-            if not there(words):
-                continue
-            words = [*words, "--out", "out"]
+        for name in drawn(filter(lambda name: there(WRITERS[name]), WRITERS), 3):
+            words = [*WRITERS[name], "--out", "out"]
             files, same, seconds = self.reference(words)
             for i in range(KILLS):
                 sent = signal.SIGINT if i % 2 else signal.SIGKILL
@@ -264,20 +263,21 @@ class WritersRefused(InPreparedFolder):
         self.assertFalse(os.path.exists(os.path.join(self.folder, "mine")))
 
     def test_pictures_of_an_earlier_run_go(self):
-        for name, words in WRITERS.items():
-            if there(words) and "--no-figures" in words and not name.startswith(("shapes", "gallery")):
-                with self.subTest(command=name):
-                    shutil.rmtree(self.out, ignore_errors=True)
-                    os.mkdir(self.out)
-                    names = ("accuracy", "engagement", "scans", "campaign", "swarm", "trials", "cone", "cone_map", "signmap", "simulation", "fit",
-                             "visible_section", "scan_convergence", "tracks", "pursuit", "starts")
-                    for picture in names:
-                        self.write("out/%s.png" % picture, "old")
-                    self.write("out/mine.png", "not ours")
-                    self.assertEqual(self.run_limited(*words, "--out", "out", preexec_fn=None).returncode, 0)
-                    left = [n for n in os.listdir(self.out) if n.endswith(".png")]
-                    self.assertIn("mine.png", left)
-                    self.assertLess(len(left), len(names) + 1)
+        draws = (name for name, words in WRITERS.items()
+                 if there(words) and "--no-figures" in words and not name.startswith(("shapes", "gallery")))
+        for name in drawn(draws, 3):
+            with self.subTest(command=name):
+                shutil.rmtree(self.out, ignore_errors=True)
+                os.mkdir(self.out)
+                names = ("accuracy", "engagement", "scans", "campaign", "swarm", "trials", "cone", "cone_map", "signmap", "simulation", "fit",
+                         "visible_section", "scan_convergence", "tracks", "pursuit", "starts")
+                for picture in names:
+                    self.write("out/%s.png" % picture, "old")
+                self.write("out/mine.png", "not ours")
+                self.assertEqual(self.run_limited(*WRITERS[name], "--out", "out", preexec_fn=None).returncode, 0)
+                left = [n for n in os.listdir(self.out) if n.endswith(".png")]
+                self.assertIn("mine.png", left)
+                self.assertLess(len(left), len(names) + 1)
 
 
 class WritersDraw(InPreparedFolder):
@@ -288,9 +288,8 @@ class WritersDraw(InPreparedFolder):
         subprocess.run(["/usr/bin/python3", "-m", "venv", "--without-pip", environment], check=True)
         active = {**os.environ, "PATH": os.path.join(environment, "bin") + ":" + os.environ["PATH"],
                   "VIRTUAL_ENV": environment, "PYTHONPATH": self.folder}
-        for name, words in WRITERS.items():
-            if not there(words) or name in ("claims", "estimate"):
-                continue
+        for name in drawn((n for n, words in WRITERS.items() if there(words) and n not in ("claims", "estimate")), 4):
+            words = WRITERS[name]
             with self.subTest(command=name):
                 shutil.rmtree(self.out, ignore_errors=True)
                 left_out = ["--no-figures"]
@@ -312,9 +311,9 @@ class WritersDraw(InPreparedFolder):
 class Interruptions(InPreparedFolder):
     def test_long_work_ends_at_once(self):
         signals = (signal.SIGINT, signal.SIGTERM)
-        for turn, (name, (words, sign)) in enumerate(LONG.items()):
-            if not there(words):
-                continue
+        for name in drawn((name for name, (words, _) in LONG.items() if there(words)), 2):
+            words, sign = LONG[name]
+            turn = list(LONG).index(name)
             # One handler takes both (scenes/work/interrupt.cpp): a command has one of them, in the campaign both.
             for sent in signals if LONG_CAMPAIGN else signals[turn % 2:turn % 2 + 1]:
                 with self.subTest(command=name, sent=sent), self.start(words, stdin=subprocess.PIPE) as process:

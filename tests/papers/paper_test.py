@@ -19,6 +19,9 @@ import yaml
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 from printed_numbers import PRINTED  # noqa: E402
 
+sys.path.append(os.path.join(os.path.dirname(os.path.dirname(os.path.abspath(__file__))), "support"))
+from drawn import drawn  # noqa: E402
+
 VERICONE = os.path.abspath(os.environ["VERICONE"])
 VERDICTS = {"given", "consistent", "reproduced", "by the authors' code", "fitted", "not engaged",
             "not decided by what is printed", "differs", "source wrong"}
@@ -26,6 +29,8 @@ HOLDS = {"reproduced", "fitted", "by the authors' code", "consistent"}
 KINDS = {"result", "by the authors' code", "the source's own arithmetic", "given"}
 STEP = 0.01  # s, of 5.4
 SOURCES = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+# Two thirds of the time are the cameras and trackers of chapter 4.
+CHAPTERS = ("2", "3", "5", "6", "7", *drawn(["4"], 3))
 
 
 def run(*arguments, folder=None):
@@ -58,7 +63,7 @@ def registry():
 class Claims(unittest.TestCase):
     def test_every_claim_has_a_verdict_a_note_and_a_figure(self):
         figures = {line.split("\t")[0] for line in run("figures", "--list").stdout.splitlines()}
-        for c in claims().values():
+        for c in claims(*CHAPTERS).values():
             with self.subTest(c["id"]):
                 self.assertIn(c["verdict"], VERDICTS)
                 for field in ("section", "what", "printed", "ours", "tolerance_reason", "note"):
@@ -68,14 +73,16 @@ class Claims(unittest.TestCase):
 
     def test_every_printed_number_is_there(self):
         for section, numbers in PRINTED.items():
+            if section[0] not in CHAPTERS:
+                continue
             for name, text in numbers:
                 with self.subTest(section=section, name=name, text=text):
-                    found = [c for c in claims().values() if c["section"] == section and name in c["id"]
+                    found = [c for c in claims(*CHAPTERS).values() if c["section"] == section and name in c["id"]
                              and text in c["printed"]]
                     self.assertTrue(found)
 
     def test_verdicts_follow_from_the_values(self):
-        for c in claims().values():
+        for c in claims(*CHAPTERS).values():
             if None in (c["printed_value"], c["ours_value"]) or c["kind"] == "given" or c["verdict"] == "not engaged":
                 continue
             with self.subTest(c["id"]):
@@ -84,13 +91,13 @@ class Claims(unittest.TestCase):
                 self.assertEqual(within, c["verdict"] in HOLDS)
 
     def test_given_values_are_those_printed(self):
-        for c in claims().values():
+        for c in claims(*CHAPTERS).values():
             if c["id"] not in ("6.3.1/engagements", "7.18/trials"):  # fewer here
                 self.assertEqual(c["kind"] == "given", c["verdict"] == "given", c["id"])
 
     def test_what_was_chosen_to_agree_is_not_called_reproduced(self):
         groups = {}
-        for c in claims().values():
+        for c in claims(*CHAPTERS).values():
             with self.subTest(c["id"]):
                 if c["verdict"] == "fitted":
                     self.assertTrue(c["fits"])
@@ -100,15 +107,17 @@ class Claims(unittest.TestCase):
                     self.assertEqual(fit["free_numbers"], sum(fit["free"].values()))
                     groups.setdefault(fit["name"], []).append((c, fit))
         self.assertGreater(len(groups), 10)
-        self.assertEqual(set(groups), set(registry()["fits"]))
+        left_out = {name for name, members in groups.items() if members[0][1]["not_measured"]}
+        if "4" in CHAPTERS:
+            self.assertEqual((set(groups), left_out), (set(registry()["fits"]), set()))
         for name, members in groups.items():
-            for _, fit in members:  # those that fail count, too
+            for _, fit in members if name not in left_out else ():  # those that fail count, too
                 self.assertEqual((fit["of"], fit["not_measured"]), (len(members), 0), name)
                 self.assertEqual(fit["explains"], sum(m["verdict"] in HOLDS for m, _ in members), name)
         self.assertTrue(any(c["verdict"] not in HOLDS for c, _ in groups["gains and speeds of 2.4"]))
 
     def test_what_measures_nothing_is_not_reproduced(self):
-        for c in claims().values():
+        for c in claims(*CHAPTERS).values():
             with self.subTest(c["id"]):
                 if c["kind"] == "the source's own arithmetic":
                     self.assertFalse(c["measured_on"])

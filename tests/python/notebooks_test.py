@@ -4,6 +4,7 @@ with their outputs, pictures too, for readers who run nothing. VERICONE_NOTEBOOK
 made, to look at; examples/notebooks brings what is kept up to date."""
 import os
 import re
+import sys
 from pathlib import Path
 from typing import Any
 
@@ -15,6 +16,9 @@ pytest.importorskip("ipykernel", reason="Debian's python3-ipykernel is not insta
 pytest.importorskip("matplotlib", reason="Debian's python3-matplotlib is not installed")
 
 ROOT = Path(os.environ.get("VERICONE_SOURCE", Path(__file__).resolve().parents[2]))
+sys.path.append(str(ROOT / "tests/support"))
+from drawn import drawn  # noqa: E402
+
 NOTEBOOKS = sorted((ROOT / "examples" / "notebooks").glob("*.ipynb"))
 
 
@@ -50,7 +54,7 @@ def words(cell: Any) -> list[tuple[list[str], str]]:
     return [(data, re.sub(r"[-+]?[\d.]+(e[-+]\d+)?", "#", text)) for data, text in shown]
 
 
-@pytest.mark.parametrize("file", NOTEBOOKS, ids=lambda file: str(file.stem))
+@pytest.mark.parametrize("file", drawn(NOTEBOOKS, 2), ids=lambda file: str(file.stem))
 def test_runs(file: Path) -> None:
     notebook = executed(file, ROOT)
     shown = [output for cell in notebook.cells if cell.cell_type == "code" for output in cell.outputs]
@@ -66,7 +70,7 @@ def test_runs(file: Path) -> None:
         assert words(cell) == words(kept), cell.source
 
 
-@pytest.mark.parametrize("file", [file for file in NOTEBOOKS if file.stem[0] in "45"], ids=lambda file: str(file.stem))
+@pytest.mark.parametrize("file", drawn((file for file in NOTEBOOKS if file.stem[0] in "45"), 2), ids=lambda file: str(file.stem))
 def test_runs_without_scans(file: Path, tmp_path: Path) -> None:
     """It says that there are none, and takes a body of its own."""
     notebook = executed(file, tmp_path)

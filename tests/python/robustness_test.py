@@ -13,6 +13,9 @@ from typing import Any
 
 import pytest
 
+sys.path.append(str(Path(__file__).resolve().parents[1] / "support"))
+from drawn import drawn  # noqa: E402
+
 PROGRAM = Path(__file__).parent / "search" / "any_calls.py"
 
 
@@ -35,7 +38,7 @@ SPACES = ["", "exact.,files.,fits.,octomap.,scanning.", "fitting.,guidance.,visi
           "simulation.,vehicles."]
 
 
-@pytest.mark.parametrize("spaces", SPACES)
+@pytest.mark.parametrize("spaces", drawn(SPACES, 2))
 def test_any_object_shape_and_dtype(tmp_path: Path, spaces: str) -> None:
     report = called(tmp_path, 1_000 * len(spaces.split(",")) if spaces else 3_000, 1, 280, "--most", spaces)
     assert report["faults"] == 0, report["text"]
