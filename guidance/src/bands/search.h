@@ -131,7 +131,7 @@ class Search {
           continue;
         }
       }
-      beyond = std::max(4 * beyond, 2 * finest_);
+      beyond = std::max(4 * beyond, finest_);
     }
     return {sign > 0 ? std::min(q, end) : std::max(q, end), met};
   }
@@ -153,7 +153,7 @@ class Search {
       else if (!question_.is_hit(end))
         return std::nullopt;
     }
-    while (std::abs(first - q) > 2.5 * finest_ && looks_ < kMostLooks) {
+    while (std::abs(first - q) > 1.5 * finest_ && looks_ < kMostLooks) {
       const double between = 0.5 * (q + first);
       const State state = look(between);
       // Nearly at the end; or nothing is known of what is between.
