@@ -115,6 +115,8 @@ class Merge(unittest.TestCase):
             self.assertEqual((result.returncode, result.stdout), (2, ""))
             self.assertTrue(result.stderr.startswith(f"vericone: --rows: got {rows}, must be {says}"), result.stderr)
             self.assertFalse(os.path.exists(self.path("refused")))
+        result = run("trials", SCENARIO, "--trial", "1", "--rows", "none")
+        self.assertEqual((result.returncode, result.stdout, result.stderr), (2, "", "vericone: --rows: got none, must be left out with --trial\n"))
         result = run(*words, "--rows", "summary.csv", "--no-figures", "--quiet", "--out", self.path("same"))
         self.assertEqual((result.returncode, result.stderr), (2, "vericone: --rows: got summary.csv, must be the name of no other file in --out\n"))
         # Its rows are done, and serve the next try.

@@ -290,8 +290,9 @@ int run_pursue(const PursueOptions& options, std::ostream& out) {
   if ((options.starts > 0 || options.random > 0) && !(options.video.empty() && options.frames.empty()))
     throw InputError(options.video.empty() ? "--frames" : "--video",
                      options.video.empty() ? options.frames : options.video, "left out with many runs");
-  if (!options.part.empty() && options.starts == 0 && options.random == 0)
-    throw InputError("--part", options.part, "left out, or given with --starts or --random");
+  for (const auto& [name, value] : {std::pair("--part", options.part), std::pair("--rows", options.rows)})
+    if (!value.empty() && options.starts == 0 && options.random == 0)
+      throw InputError(name, value, "left out, or given with --starts or --random");
   if (options.starts > 0) return run_starts(pursuit, options, out);
   if (options.random > 0) return run_random(pursuit, options, out);
   return run_one(pursuit, options, text, out);

@@ -321,8 +321,8 @@ int run_trials(const TrialsOptions& given, std::ostream& out) {
   TrialsOptions options = complete(given, scenario);
   std::vector<Cell> cells = cells_of(options, scenario);
   const std::optional<Encounters> with = encounters_of(options, scenario, cells);
-  if (options.trial && !options.part.empty())
-    throw InputError("--part", options.part, "left out with --trial");
+  for (const auto& [name, value] : {std::pair("--part", options.part), std::pair("--rows", options.rows)})
+    if (options.trial && !value.empty()) throw InputError(name, value, "left out with --trial");
   if (options.trial) return print_one(options, cells, out);
   work::ResumableTable table{"trials.csv"};
   table.settings = "# vericone trials, " + fs::path(options.scenario).filename().string() + " " +
