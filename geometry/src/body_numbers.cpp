@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <vericone/geometry/error.h>
+#include <vericone/geometry/exact/rational.h>
 #include <vericone/internal/geometry/body_numbers.h>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <string>
 #include <utility>
 
@@ -130,17 +132,26 @@ class Reader {
     for (std::size_t i = 0; i < count; ++i) all.push_back(one());
     return all;
   }
+  /// Whether S = F F^T to the rounding of another machine, entry by entry, and of products below the doubles.
+  static bool fits(const Matrix3d& shape, const Matrix3d& factor) {
+    constexpr double kPart = 1e-12, kLeast = 8 * std::numeric_limits<double>::denorm_min();
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j)
+        if (shape(i, j) != shape(j, i) ||
+            !(std::abs(factor.row(i).dot(factor.row(j)) - shape(i, j)) <=
+              kPart * factor.row(i).stableNorm() * factor.row(j).stableNorm() + kLeast))
+          return false;
+    return true;
+  }
   Ellipsoid ellipsoid() {
     const std::size_t start = at_;
     const Vector3d center = vector();
     const Matrix3d shape = square(), factor = square();
     const bool by_factor = whole(1) == 1;
-    // Of the matrix that is rounded nothing is asked but that it be that of this body.
-    if (!((shape - factor * factor.transpose()).norm() <= 1e-9 * shape.norm()) ||
-        shape != shape.transpose() || !(std::abs(factor.determinant()) > 0))
+    const auto body = Ellipsoid::trusted(center, shape, factor, by_factor);
+    if (!fits(shape, factor) || !exact::positive_definite<3>(exact::defining_shape<3>(body)))
       refuse(start, "the centre, shape S = F F^T and factor F of an ellipsoid");
-    if (!by_factor) (void)Ellipsoid::from_shape(center, shape);  // positive definite, or refused
-    return Ellipsoid::trusted(center, shape, factor, by_factor);
+    return body;
   }
   CombinedEllipsoid combined() {
     const Ellipsoid whole_body = ellipsoid();

@@ -7,10 +7,12 @@
 #include <vericone/geometry/error.h>
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cctype>
 #include <deque>
 #include <map>
 #include <numbers>
 #include <set>
+#include <string>
 
 #include "robot/robot.h"
 
@@ -27,9 +29,29 @@ std::string trimmed(const std::string& text) {
   return first == std::string::npos ? "" : text.substr(first, text.find_last_not_of(blanks) - first + 1);
 }
 
+/// In any case, as libsdformat takes it.
+bool truth_of(const std::string& text, int line, const char* what) {
+  std::string word = trimmed(text);
+  std::transform(word.begin(), word.end(), word.begin(), [](unsigned char c) { return std::tolower(c); });
+  if (word == "true" || word == "1") return true;
+  if (word != "false" && word != "0") refuse(line, what + (" \"" + shown_name(text)) + "\"", "true or false");
+  return false;
+}
+
+/// The x of SDF 1.x: what an axis is written in depends on it.
+int version_of(const Element& root) {
+  const std::string text = trimmed(needed(root, "version"));
+  const bool of_one = text.starts_with("1.") && text.size() > 2 && text.size() < 6;
+  if (!of_one || text.find_first_not_of("0123456789", 2) != std::string::npos)
+    refuse(root.line, "version \"" + shown_name(text) + "\"", "1.0 to 1.12, or a later 1.x");
+  return std::stoi(text.substr(2));
+}
+
 /// Of a <pose>, of nothing where there is none.
 Pose pose_of(const Element* element) {
   Pose pose;
+  if (const std::string* frame = element ? element->attribute("frame") : nullptr; frame && !frame->empty())
+    refuse(element->line, "frame=\"" + shown_name(*frame) + "\"", "relative_to, of SDF 1.7 and later");
   if (!element || trimmed(element->text).empty()) return pose;
   const std::string* format = element->attribute("rotation_format");
   if (format && *format == "quat_xyzw") {
@@ -44,7 +66,7 @@ Pose pose_of(const Element* element) {
   if (format && *format != "euler_rpy") refuse(element->line, shown_name(*format), "euler_rpy or quat_xyzw");
   const auto x = vector_of<6>(element->text, element->line, "pose");
   const std::string* degrees = element->attribute("degrees");
-  const double unit = degrees && (*degrees == "true" || *degrees == "1") ? std::numbers::pi / 180 : 1;
+  const double unit = degrees && truth_of(*degrees, element->line, "degrees") ? std::numbers::pi / 180 : 1;
   pose.position = x.head<3>();
   pose.rotation = turn_of(unit * x.tail<3>());
   return pose;
@@ -141,8 +163,9 @@ Geometry sdf_geometry(const Element& owner) {
 
 class SdfModel {
  public:
-  SdfModel(const Element& model, Shown shown, Robot& robot, const std::string& prefix, const Pose& place)
-      : model_(model), shown_(shown), robot_(robot), prefix_(prefix), place_(place) {}
+  SdfModel(const Element& model, int version, Shown shown, Robot& robot, const std::string& prefix,
+           const Pose& place)
+      : model_(model), version_(version), shown_(shown), robot_(robot), prefix_(prefix), place_(place) {}
 
   void read() {
     for (const char* other : {"model", "include"})
@@ -243,7 +266,8 @@ class SdfModel {
       joint.axis = unit_axis(vector_of<3>(xyz->text, xyz->line, "xyz"), xyz->line);
       const std::string* in = xyz->attribute("expressed_in");
       const Element* old = axis.child("use_parent_model_frame");
-      const bool model = old && (trimmed(old->text) == "1" || trimmed(old->text) == "true");
+      // Up to SDF 1.4 always (libsdformat, sdf/1.5/1_4.convert).
+      const bool model = version_ < 5 || (old && truth_of(old->text, old->line, "use_parent_model_frame"));
       if ((in && !in->empty()) || model) {
         const Pose frame = frames_.at(in && !in->empty() ? *in : "__model__", xyz->line);
         joint.axis = own.rotation.transpose() * (frame.rotation * joint.axis);
@@ -260,6 +284,7 @@ class SdfModel {
   }
 
   const Element& model_;
+  int version_;
   Shown shown_;
   Robot& robot_;
   std::string prefix_;
@@ -274,9 +299,10 @@ class SdfModels {
   SdfModels(Shown shown, const Include& include) : shown_(shown), include_(include) {}
 
   Robot read(const Element& root) {
-    gather(root, nullptr);
+    const int version = version_of(root);
+    gather(root, version, nullptr);
     for (const Element& world : root.children)
-      if (world.name == "world") gather(world, nullptr);
+      if (world.name == "world") gather(world, version, nullptr);
     if (models_.empty()) refuse(root.line, "no model", "one model or more");
     Robot robot;
     std::set<std::string> names;
@@ -285,7 +311,8 @@ class SdfModels {
         refuse(one.line, shown_name(one.name), "a name that no other model has");
       const std::size_t links = robot.links.size(), joints = robot.joints.size();
       in_file(one, [&] {
-        SdfModel(*one.model, shown_, robot, models_.size() > 1 ? one.name + "::" : "", one.place).read();
+        const std::string prefix = models_.size() > 1 ? one.name + "::" : "";
+        SdfModel(*one.model, one.version, shown_, robot, prefix, one.place).read();
       });
       if (!one.file) continue;
       for (std::size_t i = links; i < robot.links.size(); ++i)
@@ -304,6 +331,7 @@ class SdfModels {
  private:
   struct Model {
     const Element* model;
+    int version;
     std::string name;
     Pose place;
     int line;                  // of the file itself
@@ -329,10 +357,10 @@ class SdfModels {
     return pose_of(owner.child("pose"));
   }
 
-  void gather(const Element& owner, const Model* including) {
+  void gather(const Element& owner, int version, const Model* including) {
     for (const Element& element : owner.children) {
       if (element.name == "model") {
-        Model model{&element, needed(element, "name"), place_of(element), element.line, nullptr, ""};
+        Model model{&element, version, needed(element, "name"), place_of(element), element.line, nullptr, ""};
         if (including) {
           model.line = including->line;
           model.file = including->file;
@@ -351,13 +379,13 @@ class SdfModels {
     const Element& uri = needed_child(element, "uri");
     if (const Element* other = element.child("placement_frame"))
       refuse(other->line, "<placement_frame>", "left out: the pose is that of the model's own frame");
-    Model one{nullptr, "", Pose(), element.line, nullptr, trimmed(uri.text)};
+    Model one{nullptr, 0, "", Pose(), element.line, nullptr, trimmed(uri.text)};
     one.file = &files_.emplace_back(include_(one.uri, uri.line));
     const std::size_t before = models_.size();
     in_file(one, [&] {
       const Element& root = one.file->root;
       if (root.name != "sdf") refuse(root.line, "<" + shown_name(root.name) + ">", "<sdf>");
-      gather(root, &one);
+      gather(root, version_of(root), &one);
       if (models_.size() != before + 1)
         refuse(root.line, std::to_string(models_.size() - before) + " models", "one model");
     });

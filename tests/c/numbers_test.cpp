@@ -52,10 +52,26 @@ TEST(CInterface, NumbersOfNoBodyAreRefused) {
     EXPECT_FALSE(vericone_body_of_numbers(longer.data(), longer.size()));
   }
   const BodyHandle ball = ellipsoid(random).c;
-  auto lies = numbers_of(ball.get());
-  lies[4] *= 2;  // its shape is not that of its factor
-  EXPECT_FALSE(vericone_body_of_numbers(lies.data(), lies.size()));
-  EXPECT_THAT(vericone_error(), StartsWith("numbers[1]: got "));
+  for (const double part : {2.0, 1 - 9e-10, 1 + 1e-11}) {
+    auto lies = numbers_of(ball.get());
+    lies[4] *= part;  // its shape is not that of its factor
+    EXPECT_FALSE(vericone_body_of_numbers(lies.data(), lies.size())) << part;
+    EXPECT_THAT(vericone_error(), StartsWith("numbers[1]: got "));
+  }
+}
+
+TEST(CInterface, TinyAndFlatBodiesOfNumbersAreTheSameBodies) {
+  for (const Vector3d& axes : {Vector3d(1e-110, 2e-110, 3e-110), Vector3d(1e-155, 1e-155, 1e-155),
+                               Vector3d(1e150, 1, 1e-150), Vector3d(1e150, 1e150, 1e150)}) {
+    const Vector3d zero = Vector3d::Zero();
+    const Rows turned = rotation_3d({0.5, -0.5, 0.5, 0.5});
+    const BodyHandle body(vericone_body_ellipsoid(zero.data(), axes.data(), turned.data()));
+    ASSERT_TRUE(body) << vericone_error();
+    const auto numbers = numbers_of(body.get());
+    const BodyHandle again(vericone_body_of_numbers(numbers.data(), numbers.size()));
+    ASSERT_TRUE(again) << vericone_error();
+    EXPECT_EQ(numbers_of(again.get()), numbers);
+  }
 }
 
 }  // namespace

@@ -203,13 +203,14 @@ TEST(Robot, HasMeshesOfScenesUpright) {
 
 TEST(Robot, OfSdfIncludesFilesBesideIt) {
   Folder folder;
-  folder.write(
-      "models/box/model.sdf",
-      "<sdf><model name='box'><pose>1 0 0 0 0 0</pose><link name='l'><collision name='c'><geometry><mesh>"
-      "<uri>box.obj</uri></mesh></geometry></collision></link></model></sdf>");
+  folder.write("models/box/model.sdf",
+               "<sdf version='1.9'><model name='box'><pose>1 0 0 0 0 0</pose><link name='l'><collision "
+               "name='c'><geometry><mesh>"
+               "<uri>box.obj</uri></mesh></geometry></collision></link></model></sdf>");
   folder.write("models/box/box.obj", "v 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\n");
   folder.write("world.sdf",
-               "<sdf><world name='w'><include><uri>model://box</uri></include><include><uri>models/box</uri>"
+               "<sdf version='1.9'><world "
+               "name='w'><include><uri>model://box</uri></include><include><uri>models/box</uri>"
                "<name>other</name><pose>0 0 7 0 0 0</pose></include></world></sdf>");
   const SceneBody body = folder.body("{robot: world.sdf, packages: {box: models/box}}");
   ASSERT_EQ(body.pieces()->size(), 2u);
@@ -218,9 +219,37 @@ TEST(Robot, OfSdfIncludesFilesBesideIt) {
   EXPECT_EQ(
       folder.body("{robot: world.sdf, packages: {box: models/box}, links: ['other::l']}").pieces()->size(),
       1u);
-  folder.write("models/box/model.sdf", "<sdf>\n<model name='box'><link/></model></sdf>");
+  folder.write("models/box/model.sdf", "<sdf version='1.9'>\n<model name='box'><link/></model></sdf>");
   EXPECT_THAT(folder.refusal("{robot: world.sdf, packages: {box: models/box}}"),
               HasSubstr("line 1: model://box, line 2: <link>"));
+}
+
+/// A link a quarter turn about z from the model, whose joint turns it about x by another: a ball 4 m above it
+/// goes to -y where x is the model's, to x where it is that of the link, and so of the joint.
+TEST(Robot, OfSdfTurnsAboutAxesAsItsVersionSays) {
+  Folder folder;
+  const auto ball = [&](const std::string& version, const std::string& frame, const std::string& turned) {
+    folder.write("arm.sdf", "<sdf version='" + version + R"('><model name='m'><link name='base'/>
+    <link name='arm'><pose degrees=')" +
+                                turned + R"('>0 0 0 0 0 90</pose><collision name='c'><pose>0 0 4 0 0 0</pose>
+    <geometry><sphere><radius>0.5</radius></sphere></geometry></collision></link><joint name='j' type='revolute'>
+    <parent>base</parent><child>arm</child><axis><xyz>1 0 0</xyz>)" +
+                                frame + "</axis></joint></model></sdf>");
+    return folder.body("{robot: arm.sdf, joints: {j: 1.5707963267948966}}").placed.body.bounds();
+  };
+  const auto expect_at = [&](const Vector3d& at, const Box& box) {
+    EXPECT_LT((0.5 * (box.low + box.high) - at).norm(), 1e-12) << box.low.transpose();
+  };
+  const auto asked = [](const std::string& word) {
+    return "<use_parent_model_frame>" + word + "</use_parent_model_frame>";
+  };
+  for (const char* version : {"1.0", "1.2", "1.4"}) expect_at({0, -4, 0}, ball(version, "", "true"));
+  for (const char* version : {"1.5", "1.6", "1.9", "1.10", "1.12"})
+    expect_at({4, 0, 0}, ball(version, "", "1"));
+  for (const char* word : {"true", "True", "TRUE", "1", " 1 "})
+    expect_at({0, -4, 0}, ball("1.6", asked(word), "True"));
+  for (const char* word : {"false", "False", "0"}) expect_at({4, 0, 0}, ball("1.6", asked(word), "TRUE"));
+  EXPECT_THROW(ball("1.6", asked("yes"), "true"), InputError);
 }
 
 /// The finger turns by -2 (the shoulder's angle - 0.25) + 0.5, as its joint says.
@@ -278,19 +307,30 @@ TEST(Robot, ThatIsNoneIsRefusedInOneLine) {
       {urdf("<link name='a'><collision><geometry><sphere radius='nan'/></geometry></collision></link>"),
        "1 finite number"},
       {urdf("<link name='a'><collision><geometry><torus/></geometry></collision></link>"), "cylinder"},
-      {"<sdf><model name='m'><include/></model></sdf>", "no model in another"},
-      {"<sdf><model name='m'><frame name='a' attached_to='b'/><frame name='b' attached_to='a'/><link "
+      {"<sdf><model name='m'/></sdf>", "version"},
+      {"<sdf version='2.0'><model name='m'/></sdf>", "or a later 1.x"},
+      {"<sdf version='1.x'><model name='m'/></sdf>", "or a later 1.x"},
+      {"<sdf version='1.6'><model name='m'><link name='l'><pose frame='k'>5 0 0 0 0 "
+       "0</pose></link></model></sdf>",
+       "relative_to"},
+      {"<sdf version='1.9'><model name='m'><link name='l'><pose degrees='yes'>0 0 0 0 0 "
+       "9</pose></link></model></sdf>",
+       "true or false"},
+      {"<sdf version='1.9'><model name='m'><include/></model></sdf>", "no model in another"},
+      {"<sdf version='1.9'><model name='m'><frame name='a' attached_to='b'/><frame name='b' "
+       "attached_to='a'/><link "
        "name='l'>"
        "<pose relative_to='a'/></link></model></sdf>",
        "in a circle"},
-      {"<sdf><model name='m'><link name='l'><collision><geometry><plane><normal>0 0 "
+      {"<sdf version='1.9'><model name='m'><link name='l'><collision><geometry><plane><normal>0 0 "
        "0</normal></plane></geometry></collision></link></model></sdf>",
        "a direction"},
-      {"<sdf><include><uri>none</uri></include></sdf>", "no such file"},
-      {"<sdf><include><uri>https://models/robot</uri></include></sdf>", "a file's name"},
-      {"<sdf><include><uri>x.urdf</uri></include></sdf>", "in the included file itself"},
-      {"<sdf><include><uri>arm.urdf</uri></include></sdf>", "<sdf>"},
-      {"<sdf><model name='m'><pose relative_to='k'/><link name='l'/></model></sdf>", "stand in the world"}};
+      {"<sdf version='1.9'><include><uri>none</uri></include></sdf>", "no such file"},
+      {"<sdf version='1.9'><include><uri>https://models/robot</uri></include></sdf>", "a file's name"},
+      {"<sdf version='1.9'><include><uri>x.urdf</uri></include></sdf>", "in the included file itself"},
+      {"<sdf version='1.9'><include><uri>arm.urdf</uri></include></sdf>", "<sdf>"},
+      {"<sdf version='1.9'><model name='m'><pose relative_to='k'/><link name='l'/></model></sdf>",
+       "stand in the world"}};
   for (const auto& [text, expected] : files) {
     folder.write("x.urdf", text);
     const std::string refusal = folder.refusal("{robot: x.urdf}");
@@ -304,10 +344,10 @@ TEST(Robot, ThatIsNoneIsRefusedInOneLine) {
   EXPECT_THAT(folder.refusal("{robot: arm.urdf, links: [foot]}"), HasSubstr("obstacle.links"));
   EXPECT_THAT(folder.refusal("{robot: none.urdf}"), HasSubstr("no such file"));
   // The ground of a world, in a frame that leans: what is behind its plane.
-  folder.write(
-      "ground.sdf",
-      "<sdf><model name='m'><link name='l'><pose>0 0 1 0 0 0</pose><collision name='c'><geometry><plane>"
-      "<normal>0 3 4</normal></plane></geometry></collision></link></model></sdf>");
+  folder.write("ground.sdf",
+               "<sdf version='1.9'><model name='m'><link name='l'><pose>0 0 1 0 0 0</pose><collision "
+               "name='c'><geometry><plane>"
+               "<normal>0 3 4</normal></plane></geometry></collision></link></model></sdf>");
   EXPECT_THAT(folder.refusal("{robot: ground.sdf}"), HasSubstr("obstacle.extent"));
   const SceneBody ground = folder.body("{robot: ground.sdf, extent: 50}");
   EXPECT_NEAR(ground.placed.support({0, 0.6, 0.8}), 0.8, 1e-12);

@@ -95,6 +95,12 @@ void add_enclosures(Json& result, const AnyPair& pair, Verdict verdict, const Ei
   result["contact_normal"] = normal;
 }
 
+/// Raised bodies touch at every height at once.
+void put_in_plane(Json& result) {
+  for (const char* field : {"contact_point", "contact_normal"})
+    if (!result[field].is_null()) result[field][2] = 0.0;
+}
+
 /// Of bodies that overlap now.
 Json penetration_json(const std::optional<Penetration>& depth) {
   if (!depth) return nullptr;
@@ -132,10 +138,7 @@ Json answer(const scenes::Scene& scene, bool with_rung, const Horizon& horizon) 
     add_enclosed_time(result, pair, verdict, v_a, v_b);
   } else {
     add_enclosures(result, pair, verdict, v_a, v_b);
-    // Raised bodies touch at every height at once.
-    if (scene.in_plane)
-      for (const char* field : {"contact_point", "contact_normal"})
-        if (!result[field].is_null()) result[field][2] = 0.0;
+    if (scene.in_plane) put_in_plane(result);
     add_left_out(result, scene.obstacle);
   }
   if (verdict == Verdict::overlapping)
@@ -153,6 +156,7 @@ Json slab_answer(const scenes::Scene& scene, const Slab& slab, const Horizon& ho
   Json result{{"verdict", to_string(pair.verdict(v_a, v_b, horizon.until))}};
   if (with_rung) result["rung"] = to_string(Rung::exact);
   add_enclosures(result, pair, verdict, v_a, v_b);
+  if (scene.in_plane) put_in_plane(result);
   if (verdict == Verdict::overlapping) result["penetration"] = penetration_json(pair.penetration());
   return result;
 }

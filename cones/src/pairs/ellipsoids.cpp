@@ -41,6 +41,12 @@ class Ellipsoids : public Family {
   Contact contact(const Vector3d& v_a, const Vector3d& v_b) const override {
     Contact contact;
     const auto enclosure = enclose_time_to_contact(oracle_, v_a, v_b);
+    if (enclosure && !enclosure->finite()) {
+      // Its end is past the largest double, and it is a few units in the last place wide.
+      contact.earliest = std::numeric_limits<double>::max() * (1 - 0x1p-48);
+      contact.time = std::numeric_limits<double>::quiet_NaN();
+      return contact;
+    }
     contact.earliest = enclosure ? std::max(enclosure->lo(), 0.0) : 0;
     contact.latest = enclosure ? enclosure->hi() : std::numeric_limits<double>::infinity();
     const auto time = time_to_contact(oracle_, v_a, v_b);

@@ -6,6 +6,7 @@
 #include <vericone/geometry/error.h>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "answers/stretch.h"
 #include "ellipsoids/apart.h"
@@ -314,7 +315,10 @@ std::optional<Passage> Pair::passage(const Vector3d& v_a, const Vector3d& v_b) c
 
 std::optional<Contact> Pair::contact(const Vector3d& v_a, const Vector3d& v_b) const {
   if (verdict(v_a, v_b) == Verdict::out) return std::nullopt;
-  return family_->contact(v_a, v_b);
+  Contact contact = family_->contact(v_a, v_b);
+  // They meet, if past the largest double.
+  contact.earliest = std::min(contact.earliest, std::numeric_limits<double>::max());
+  return contact;
 }
 
 Miss Pair::miss(const Vector3d& v_a, const Vector3d& v_b) const {
@@ -329,7 +333,10 @@ Miss Pair::miss(const Vector3d& v_a, const Vector3d& v_b) const {
   return miss;
 }
 
-std::optional<Penetration> Pair::penetration() const { return vericone::penetration(*agent_, *obstacle_); }
+std::optional<Penetration> Pair::penetration() const {
+  if (relation() != Relation::overlapping) return std::nullopt;
+  return vericone::penetration(*agent_, *obstacle_);
+}
 
 std::optional<PlaneSector> Pair::sector(const Vector3d& from, const Vector3d& to,
                                         const Vector3d& across) const {

@@ -4,6 +4,7 @@
 #include <vericone/geometry/error.h>
 #include <vericone/geometry/exact/rational.h>
 #include <vericone/geometry/interval.h>
+#include <vericone/internal/geometry/rotation.h>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -160,8 +161,10 @@ std::vector<Side> sides_of(const Slab& slab) {
 /// Outwards until it is not within the side: by roundings.
 void move_out(Vector3d& corner, const Side& side) {
   int k = 0;
-  side.normal.cwiseAbs().maxCoeff(&k);
-  const double size = corner.cwiseAbs().maxCoeff() * std::numeric_limits<double>::epsilon();
+  const double largest = side.normal.cwiseAbs().maxCoeff(&k);
+  // A corner may have cancelled to 0, and the plane is not there.
+  constexpr double kPart = std::numeric_limits<double>::epsilon();
+  const double size = std::max(kPart * corner.cwiseAbs().maxCoeff(), kPart * std::abs(side.height) / largest);
   for (double step = size / 8;
        std::isfinite(step) &&
        dot(exact::to_rational<3>(side.normal), exact::to_rational<3>(corner)) < Rational(side.height);
@@ -214,6 +217,7 @@ struct SlabPair::Data {
 };
 
 SlabPair::SlabPair(const Placed& agent, const Slab& obstacle) {
+  static_cast<void>(is_upright(agent.pose));  // throws where it is none
   Data data;
   data.sides = sides_of(obstacle);
   data.at = agent.pose.position;

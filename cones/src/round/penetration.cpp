@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <vericone/cones/penetration.h>
 
+#include <vericone/internal/geometry/rotation.h>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -164,6 +165,8 @@ void find_depth(const Difference& k, const std::vector<Vector3d>& corners, Depth
 namespace vericone {
 
 std::optional<Penetration> penetration(const Placed& agent, const Placed& obstacle) {
+  for (const Placed* placed : {&agent, &obstacle})
+    static_cast<void>(is_upright(placed->pose));  // or it throws
   const auto a = round::convex_of(agent), b = round::convex_of(obstacle);
   if (!a || !b) return std::nullopt;
   RoundScene scene(*a, agent.pose.position, *b, obstacle.pose.position);

@@ -2,6 +2,7 @@
 #include "round/polytope.h"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <utility>
 
@@ -34,7 +35,25 @@ void Polytope::append(int a, int b, int c, std::array<int, 3> beyond) {
   const Eigen::Vector3d n = (y - x).cross(z - x);
   const double length = n.norm();
   if (length > 1e-300) face.normal = n / length;
-  face.distance = std::min({face.normal.dot(x), face.normal.dot(y), face.normal.dot(z)});
+  const auto least = [&](const Eigen::Vector3d& m) { return std::min({m.dot(x), m.dot(y), m.dot(z)}); };
+  face.distance = least(face.normal);
+  // All but an edge, where points lie along a ruling: its normal is rounding, and may put it next to the
+  // origin. What points at the edge's nearest point bounds it too.
+  constexpr double kThin = 1e-10;
+  std::array<std::pair<const Eigen::Vector3d*, const Eigen::Vector3d*>, 3> edges{
+      {{&x, &y}, {&y, &z}, {&z, &x}}};
+  const auto [from, to] = *std::max_element(edges.begin(), edges.end(), [](const auto& e, const auto& f) {
+    return (*e.second - *e.first).squaredNorm() < (*f.second - *f.first).squaredNorm();
+  });
+  const Eigen::Vector3d along = *to - *from;
+  if (length < kThin * along.squaredNorm()) {
+    const double part = std::clamp(-from->dot(along) / along.squaredNorm(), 0.0, 1.0);
+    const Eigen::Vector3d m = (*from + part * along).normalized();
+    if (const double distance = least(m); distance > face.distance) {
+      face.normal = m;
+      face.distance = distance;
+    }
+  }
   faces_.push_back(std::move(face));
 }
 

@@ -107,10 +107,13 @@ class Flat(unittest.TestCase):
         flat = {"agent": {"stadium": {"radius": 1, "length": 2}, "center": [0, 5]},
                 "obstacle": {"slab": {"normal": [0, 1], "offsets": [-1, 2]}},
                 "agent_velocity": [0, -1], "obstacle_velocity": [0, 1]}
-        result, answers = query(case, slanted, level, deep, late, just, flat)
+        low = {"agent": {"stadium": {"radius": 1, "length": 2}, "center": [0, 3]},
+               "obstacle": {"half_space": {"normal": [0, 1], "offset": -5}},
+               "agent_velocity": [0, -1], "obstacle_velocity": [0, 0]}
+        result, answers = query(case, slanted, level, deep, late, just, flat, low)
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertEqual([a["verdict"] for a in answers],
-                         ["in", "out", "out", "overlapping", "on", "in", "in"])
+                         ["in", "out", "out", "overlapping", "on", "in", "in", "in"])
         self.assertAlmostEqual(answers[0]["time_to_contact"], 3, 12)
         self.assertEqual(answers[0]["contact_normal"], [0, 0, -1])
         self.assertAlmostEqual(answers[0]["contact_point"][2], 1, 12)
@@ -119,6 +122,7 @@ class Flat(unittest.TestCase):
         self.assertEqual(answers[2]["clearance"], 6)
         self.assertAlmostEqual(answers[3]["penetration"]["depth"][1], 0.5, 12)
         self.assertAlmostEqual(answers[6]["time_to_contact"], 1, 12)
+        self.assertEqual((answers[7]["contact_point"][1:], answers[7]["contact_normal"]), ([-5, 0], [0, -1, 0]))
 
     def test_half_spaces_of_scenes_and_elsewhere(self):
         text = ("agent: {box: {half_widths: [1, 1, 1]}, center: [0, 0, 5], velocity: [0, 0, -1]}\n"

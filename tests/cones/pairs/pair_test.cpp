@@ -7,6 +7,7 @@
 #include <vericone/testing/laws.h>
 #include <vericone/testing/random_bodies.h>
 #include <cmath>
+#include <limits>
 #include <string>
 #include <thread>
 #include <tuple>
@@ -42,6 +43,28 @@ struct PairPredicate {
   Verdict membership(const Vector3d& v_a, const Vector3d& v_b) const { return pair.verdict(v_a, v_b); }
   Verdict verdict(const Vector3d& v_a, const Vector3d& v_b) const { return pair.verdict(v_a, v_b); }
 };
+
+/// 8 m of a way that takes longer than the largest double says, or just not; s.
+TEST(Pairs, ContactsPastTheLargestDoubleAreBracketed) {
+  constexpr double kMost = std::numeric_limits<double>::max();
+  const Body ball = Ellipsoid(), box = HullBody::box(Vector3d::Constant(-1), Vector3d::Constant(1)),
+             capsule = Convex::capsule(1, 0), cloud = Assembly::cloud({Vector3d::Zero()}, 1);
+  const auto apart = [](const Body& body) {
+    return Placed(body, {Vector3d(10, 0, 0), Eigen::Matrix3d::Identity()});
+  };
+  for (const Body* a : {&ball, &box, &capsule, &cloud})
+    for (const Body* b : {&ball, &box, &capsule, &cloud})
+      for (const double speed : {5e-324, 1e-308, 4.45e-308, 4.4502e-308}) {
+        const Pair pair(*a, apart(*b));
+        ASSERT_EQ(pair.verdict({speed, 0, 0}, Vector3d::Zero()), Verdict::in);
+        const Contact contact = *pair.contact({speed, 0, 0}, Vector3d::Zero());
+        const bool past = speed < 4.4501e-308;
+        EXPECT_LE(contact.earliest, past ? kMost : 8 / speed);
+        EXPECT_TRUE(a != &ball || b != &ball || contact.earliest > 0.999 * kMost) << contact.earliest;
+        EXPECT_GE(contact.latest, past ? std::numeric_limits<double>::infinity() : 8 / speed);
+        EXPECT_FALSE(past && std::isfinite(contact.time));
+      }
+}
 
 class EveryPair : public ::testing::TestWithParam<std::tuple<BodyKind, BodyKind>> {};
 

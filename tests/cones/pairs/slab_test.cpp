@@ -212,6 +212,14 @@ TEST(Slabs, PartsOfThemAreTouchedExactlyAlongAxes) {
   const HullBody third = clipped({{0, 0, 3}, -kEver, 1}, kStill, 9);
   EXPECT_GT(third.support({0, 0, 1}), 1. / 3);
   EXPECT_LT(third.support({0, 0, 1}), 1. / 3 + 4e-15);
+  // A corner whose sum cancels to 0, 1e-30 below the plane.
+  const Vector3d slanted(0.6, 0, 0.8), u = slanted.stableNormalized().unitOrthogonal(),
+                                       v = slanted.stableNormalized().cross(u);
+  double wide = 1;  // of extent 1, with its slack
+  for (int i = 0; i < 60; ++i) wide = 1 + 0x1p-48 + 0x1p-48 * (wide + 1e-30 + 1e-30);
+  const HullBody beside = clipped({slanted, -kEver, 1e-30}, wide * u + wide * v, 1);
+  EXPECT_LT(beside.points()[0].norm(), 1e-29);
+  EXPECT_GT(slanted.dot(beside.points()[0]), 0.9e-30);
   const auto field = [](const Slab& slab, const Vector3d& about, double extent) {
     try {
       static_cast<void>(clipped(slab, about, extent));
@@ -351,6 +359,15 @@ TEST(Slabs, ThatAreNoneAreRefused) {
   EXPECT_EQ(field({{0, 0, 1}, -kEver, kEver}), "slab.high");
   RandomBodies random(4111);
   EXPECT_EQ(field({}, any_body(random, BodyKind::combined)), "agent");
+  for (const double bad : {none, kEver}) {
+    const Placed agent(Body(), Pose{{0, bad, 0}, Matrix3d::Identity()});
+    try {
+      static_cast<void>(SlabPair(agent, {}));
+      ADD_FAILURE() << bad;
+    } catch (const InputError& e) {
+      EXPECT_EQ(e.field(), "pose.position[1]");
+    }
+  }
   EXPECT_THROW(static_cast<void>(SlabPair(Body(), {}).verdict({none, 0, 0}, kStill)), InputError);
   EXPECT_THROW(static_cast<void>(SlabPair(Body(), {}).verdict(kStill, kStill, -1)), InputError);
 }

@@ -5,8 +5,10 @@
 #include <gtest/gtest.h>
 #include <vericone/cones/pair.h>
 #include <vericone/cones/penetration.h>
+#include <vericone/geometry/error.h>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -139,6 +141,36 @@ TEST(Penetration, IsThatOfClosedForms) {
   }
 }
 
+/// A capsule, and its segment alone, in a cone, whose rulings make points of the polytope lie on lines:
+/// changes of the last digits decide which faces all but degenerate.
+TEST(Penetration, IsSharpWhereRulingsAreStraight) {
+  Random random(23);
+  SCOPED_TRACE(random.trace());
+  Matrix3d of_capsule, of_cone;
+  of_capsule << -0.238401664218153, 0.7329371170962123, 0.6371560475116814, 0.09516518880851624,
+      0.6705459558805489, -0.7357388856729542, -0.9664927487245076, -0.11476629921250461,
+      -0.22960937094990563;
+  of_cone << -0.6679416204915201, 0.6736613944738908, -0.31628202163679053, -0.5764279041723518,
+      -0.737118538509252, -0.35268559862497173, -0.47072801372622003, -0.05325960741009585,
+      0.8806693768446193;
+  const auto changed = [&](Vector3d x) {
+    for (double& one : x) one *= 1 + random.integer(-3, 3) * 0x1p-52;
+    return x;
+  };
+  for (int i = 0; i < 60; ++i) {
+    const double radius = i % 2 ? 1.4954432767258015 : 0;
+    const Placed capsule{
+        Convex::capsule(radius, 1.4242764034738562),
+        {changed({0.2416218536573026, 0.14289346817521056, 0.0748780137502756}), of_capsule}},
+        cone{Convex::cone(0.3751547660236891, 4.01273758439796),
+             {changed({-0.18237752102108595, 0.8563791568050078, 0.09804313171607063}), of_cone}};
+    const auto depth = i % 4 < 2 ? penetration(capsule, cone) : penetration(cone, capsule);
+    ASSERT_TRUE(depth.has_value());
+    EXPECT_NEAR(depth->most - radius, 0.040013678, 1e-8) << i;
+    EXPECT_LT(depth->most - depth->least, 1e-10) << i;
+  }
+}
+
 TEST(Penetration, DoesNotRoundPositions) {
   for (const double far : {1e5, 1e9, 1e14}) {
     const Vector3d a(0, far, -far), b = a + Vector3d(0, 0, 1);
@@ -154,6 +186,29 @@ TEST(Penetration, ThereIsNoneOfBodiesThatAreApart) {
       penetration(at(Convex::capsule(1, 2), Vector3d::Zero()), at(Convex::capsule(1, 2), {0, 2.5, 0})));
   EXPECT_FALSE(
       penetration(at(HullBody::box({0, 0, 0}, {1, 1, 1}), Vector3d::Zero()), at(Ellipsoid(), {0, 0, 3})));
+}
+
+TEST(Penetration, ThereIsNoneOfBodiesThatTouchOrAreApartByOneRounding) {
+  const Body cube = HullBody::box({0, 0, 0}, {1, 1, 1});
+  for (const double x : {1.0, std::nextafter(1.0, 2.0)}) {
+    const Pair pair(at(cube, Vector3d::Zero()), at(cube, {x, 0, 0}));
+    EXPECT_EQ(pair.relation(), x == 1 ? Relation::touching : Relation::disjoint);
+    EXPECT_FALSE(pair.penetration().has_value()) << x;
+  }
+  const Placed huge =
+      at(HullBody::box(Vector3d::Constant(-1e150), Vector3d::Constant(1e150)), Vector3d::Zero());
+  EXPECT_FALSE(Pair(huge, huge).penetration().has_value()) << "beyond the sizes that have one";
+}
+
+TEST(Penetration, PositionsThatAreNotFiniteAreRefused) {
+  for (const double bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()})
+    for (const bool first : {true, false}) try {
+        const Placed none = at(Ellipsoid(), {0, 0, bad}), ball = at(Ellipsoid(), Vector3d::Zero());
+        static_cast<void>(first ? penetration(none, ball) : penetration(ball, none));
+        ADD_FAILURE() << bad;
+      } catch (const InputError& e) {
+        EXPECT_EQ(e.field(), "pose.position[2]");
+      }
 }
 
 TEST(Penetration, OfBodiesAboutOneAxisIsBracketed) {
