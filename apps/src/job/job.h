@@ -25,7 +25,7 @@ struct Results {
   std::string summary_file = "summary.json";
   std::vector<std::string> files;  // that the text names
   std::vector<std::string> old;    // what an earlier run may have left
-  std::ostringstream text;         // printed where no JSON is
+  std::ostringstream text = {};    // printed where no JSON is
   int status = 0;                  // of the command
 };
 
