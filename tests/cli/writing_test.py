@@ -69,7 +69,8 @@ WRITERS = {
 BY_PARTS = ("gallery", "figures")
 RESUMED = ("accuracy", "accuracy of dents", "campaign", "pursue from starts", "trials")
 
-# Long work, and what it says on standard error once it is at work; None: it is given half a second.
+# Long work, and what it says on standard error once it is at work; None: it is given half a second from the time on when it
+# listens to signals.
 LONG = {
     "gallery": (["gallery", "t.off", "u.off", "--map", "0.0001", "--no-figures"], "[1/2]"),
     "accuracy": (["accuracy", "-N", "100000000", "--no-figures"], None),
@@ -309,6 +310,12 @@ class WritersDraw(InPreparedFolder):
 
 
 class Interruptions(InPreparedFolder):
+    @staticmethod
+    def caught(pid):
+        """The signals that a process handles, one a bit: none before it is the program that was called."""
+        with open("/proc/%d/status" % pid, encoding="ascii") as f:
+            return next(int(line.split()[1], 16) for line in f if line.startswith("SigCgt:"))
+
     def test_long_work_ends_at_once(self):
         signals = (signal.SIGINT, signal.SIGTERM)
         for name in drawn((name for name, (words, _) in LONG.items() if there(words)), 2):
@@ -320,7 +327,9 @@ class Interruptions(InPreparedFolder):
                     if sign:
                         while sign not in (line := process.stderr.readline()):
                             self.assertTrue(line, "ended before it began")
-                    time.sleep(0.1 if sign else 0.7)
+                    while process.poll() is None and not self.caught(process.pid) & 1 << signal.SIGINT - 1:
+                        time.sleep(0.01)
+                    time.sleep(0.1 if sign else 0.5)
                     self.assertIsNone(process.poll(), "too quick to be interrupted")
                     start = time.monotonic()
                     process.send_signal(sent)
