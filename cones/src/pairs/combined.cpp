@@ -94,7 +94,7 @@ class Combined : public Family {
     contact.time = std::numeric_limits<double>::quiet_NaN();
     const auto enclosure =
         pool_.with([&](const CombinedOracle& oracle) { return oracle.time_to_contact(w); });
-    if (enclosure) {
+    if (enclosure && enclosure->finite()) {
       contact.earliest = std::max(enclosure->lo(), 0.0);
       contact.latest = enclosure->hi();
       contact.time = enclosure->mid();

@@ -49,11 +49,13 @@ TEST(Pairs, ContactsPastTheLargestDoubleAreBracketed) {
   constexpr double kMost = std::numeric_limits<double>::max();
   const Body ball = Ellipsoid(), box = HullBody::box(Vector3d::Constant(-1), Vector3d::Constant(1)),
              capsule = Convex::capsule(1, 0), cloud = Assembly::cloud({Vector3d::Zero()}, 1);
+  const Body waist =
+      CombinedEllipsoid(Ellipsoid(), {{Vector3d(-1, -1, 1).asDiagonal().toDenseMatrix(), 0.2}});
   const auto apart = [](const Body& body) {
     return Placed(body, {Vector3d(10, 0, 0), Eigen::Matrix3d::Identity()});
   };
-  for (const Body* a : {&ball, &box, &capsule, &cloud})
-    for (const Body* b : {&ball, &box, &capsule, &cloud})
+  for (const Body* a : {&ball, &box, &capsule, &cloud, &waist})
+    for (const Body* b : {&ball, &box, &capsule, &cloud, &waist})
       for (const double speed : {5e-324, 1e-308, 4.45e-308, 4.4502e-308}) {
         const Pair pair(*a, apart(*b));
         ASSERT_EQ(pair.verdict({speed, 0, 0}, Vector3d::Zero()), Verdict::in);
