@@ -135,9 +135,13 @@ export class ScenePage {
     if (anew) this.map.show(this.pair, this.plane, v, u, this.sight, this.data.planar);
     else this.map.move(v);
     this.redraw();
+    // Tables that nobody reads while the velocity moves.
     clearTimeout(this.looking);
-    if (this.data.guarantee.exact) this.neighbours();
-    else this.looking = window.setTimeout(() => this.neighbours(), 200); // each may take a millisecond
+    this.looking = window.setTimeout(() => this.tables(), anew && this.data.guarantee.exact ? 0 : 150);
+  }
+  private tables(): void {
+    this.tellBodies();
+    this.neighbours();
   }
   private neighbours(): void {
     const axes = this.axes(),
@@ -280,7 +284,6 @@ export class ScenePage {
       lines.push({ points: [this.middle(i)], colour: colour("ink"), width: 1, words: this.bodies[i].name });
     const [all, painted] = this.solid.draw({ bodies: shown, lines });
     element("painted").textContent = painted < all ? `${painted} of ${all} triangles are drawn.` : "";
-    this.tellBodies();
   }
 
   private coneLines(from: Vec, reach: number, shown: Shown[]): Line[] {

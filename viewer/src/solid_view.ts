@@ -26,6 +26,29 @@ export interface Picture {
   lines: Line[];
 }
 
+/** 1 or -1 where all triangles of a closed surface have their outer side to the left, or to the right, of their borders;
+ *  0: it is not closed, or not so. Of one that stands before what is behind it, half need not be painted. */
+const sides = new WeakMap<Surface, number>();
+function outerSide(surface: Surface): number {
+  const known = sides.get(surface);
+  if (known !== undefined) return known;
+  const { points, triangles } = surface,
+    edges = new Set<number>(),
+    count = points.length / 3;
+  const at = (i: number): Vec => [points[3 * i], points[3 * i + 1], points[3 * i + 2]];
+  let volume = 0;
+  for (let i = 0; i < triangles.length; i += 3) {
+    const [a, b, c] = [triangles[i], triangles[i + 1], triangles[i + 2]];
+    for (const edge of [a * count + b, b * count + c, c * count + a]) edges.add(edge);
+    volume += dot(at(a), cross(at(b), at(c)));
+  }
+  let closed = edges.size === triangles.length;
+  for (const edge of edges) closed &&= edges.has((edge % count) * count + Math.floor(edge / count));
+  const side = closed ? Math.sign(volume) : 0;
+  sides.set(surface, side);
+  return side;
+}
+
 const MOST = 30000; // triangles painted at once
 
 interface Face {
@@ -132,7 +155,7 @@ export class SolidView {
     for (const line of picture.lines) stroke(context, line, flat);
     this.axes(context, right, up, height);
     scaleBar(context, scale, width, height);
-    return [all, faces.length];
+    return [all, every > 1 ? faces.length : all];
   }
 
   private faces(
@@ -151,10 +174,12 @@ export class SolidView {
     const lit = (light: number): string =>
       `rgb(${rgb.map(c => Math.round(c * (0.45 + 0.55 * light))).join(",")})`;
     const faces: Face[] = [];
+    const side = this.planar || body.alpha < 1 ? 0 : outerSide(body.surface);
     for (let i = 0; i < triangles.length; i += 3 * every) {
       const [a, b, c] = [world[triangles[i]], world[triangles[i + 1]], world[triangles[i + 2]]];
       const n = cross(plus(b, a, -1), plus(c, a, -1)),
         length = norm(n) || 1;
+      if (side * dot(n, toward) < 0) continue; // behind the body's own front
       const light = this.planar ? 1 : Math.abs(dot(n, toward) + 0.5 * dot(n, up)) / length / 1.12;
       faces.push({
         depth: dot(a, toward) + dot(b, toward) + dot(c, toward),
