@@ -99,7 +99,7 @@ Near Navigator::Body::near(const Sweep& sweep, Wanted wanted) const {
   const double square = sweep.along.squaredNorm();
   const double part = square > 0 ? std::clamp(c.dot(sweep.along) / square, 0.0, 1.0) : 0;
   const double balls = (c - part * sweep.along).norm() - reach - wanted.reach - sweep.widest();
-  if (balls >= wanted.enough) return {balls};
+  if (balls >= wanted.enough && square < kFar) return {balls};
   wanted.normal = &normal;
   return itself ? courses::near(sweep, *itself, wanted) : courses::near(sweep, body, wanted);
 }

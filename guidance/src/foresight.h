@@ -178,6 +178,7 @@ class Outline {
       const Corner& end = corners_[i];
       const Eigen::Vector3d next = seen(end), along = next - c;
       const double square = along.squaredNorm();
+      if (!(square < kFar)) return false;  // the part would be 0
       const double part = square > 0 ? std::clamp(-c.dot(along) / square, 0.0, 1.0) : 0;
       const double more = end.beside + flight.swerved(other, end.t) + flight.rounding(other, end.t);
       if (!((c + part * along).norm() >= enough + more)) return false;
@@ -186,6 +187,7 @@ class Outline {
     enough += about_;
     const Eigen::Vector3d w = velocity_ - other.velocity;
     const double square = w.squaredNorm(), last = corners_[count_ - 1].t;
+    if (!(c.squaredNorm() < kFar && square < kFar)) return false;
     const double nearest = square > 0 ? std::max(0.0, c.dot(w) / square) : 0;
     return (c - nearest * w).norm() >= enough + 4 * flight.rounding(other, last + nearest);
   }

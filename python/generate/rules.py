@@ -8,8 +8,7 @@ import re
 # Headers below these folders are in these modules; the first that fits.
 MODULES = [
     ("geometry/files", "_files"), ("geometry/octomap", "_octomap"), ("geometry/fitting", "_fitting"),
-    ("geometry/lidar", "_lidar"), ("geometry", "_core"), ("cones", "_core"),
-    ("guidance/swarm", "_swarm"), ("guidance/ships", "_swarm"), ("guidance", "_core"),
+    ("geometry/lidar", "_lidar"), ("geometry", "_core"), ("cones", "_core"), ("guidance", "_core"),
     ("scenes/fit", "_fitting"), ("scenes/scan", "_lidar"), ("scenes/pursuits", "_vision"), ("scenes", "_files"), ("vision", "_vision"),
     ("verify", "_verify"),
 ]

@@ -262,17 +262,17 @@ class SdfModel {
   void add_axis(const Element& axis, const Pose& own, Joint& joint) const {
     joint.axis = Vector3d::UnitZ();  // as SDF says
     if (const Element* mimic = axis.child("mimic")) joint.mimic = mimic_of(*mimic);
-    if (const Element* xyz = axis.child("xyz")) {
-      joint.axis = unit_axis(vector_of<3>(xyz->text, xyz->line, "xyz"), xyz->line);
-      const std::string* in = xyz->attribute("expressed_in");
-      const Element* old = axis.child("use_parent_model_frame");
-      // Up to SDF 1.4 always (libsdformat, sdf/1.5/1_4.convert).
-      const bool model = version_ < 5 || (old && truth_of(old->text, old->line, "use_parent_model_frame"));
-      if ((in && !in->empty()) || model) {
-        const Pose frame = frames_.at(in && !in->empty() ? *in : "__model__", xyz->line);
-        joint.axis = own.rotation.transpose() * (frame.rotation * joint.axis);
-        joint.axis /= joint.axis.norm();
-      }
+    const Element* xyz = axis.child("xyz");
+    const int line = xyz ? xyz->line : axis.line;
+    if (xyz) joint.axis = unit_axis(vector_of<3>(xyz->text, line, "xyz"), line);
+    const std::string* in = xyz ? xyz->attribute("expressed_in") : nullptr;
+    const Element* old = axis.child("use_parent_model_frame");
+    // Up to SDF 1.4 always (libsdformat, sdf/1.5/1_4.convert).
+    const bool asked = old && truth_of(old->text, old->line, "use_parent_model_frame");
+    if ((in && !in->empty()) || version_ < 5 || asked) {
+      const Pose frame = frames_.at(in && !in->empty() ? *in : "__model__", line);
+      joint.axis = own.rotation.transpose() * (frame.rotation * joint.axis);
+      joint.axis /= joint.axis.norm();
     }
     const Element* limit = axis.child("limit");
     if (!limit || joint.type == "continuous") return;

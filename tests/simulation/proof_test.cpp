@@ -116,6 +116,21 @@ TEST(Proof, FarFromTheOriginRoundingIsNoDistance) {
   }
 }
 
+// From far off to the origin, where what is flown and where it began cancel: in fractions of the numbers
+// given each overlaps.
+TEST(Proof, WhatComesFromFarOffIsRoundedNearTheOriginToo) {
+  const auto verdict = [](const Vector3d& from, const Vector3d& velocity, const Vector3d& other) {
+    return prove(straight(ball(1), from, velocity, 20), straight(ball(1), other, {0, 0, 0}, 20), 0, 20)
+        .verdict;
+  };
+  EXPECT_NE(verdict({-340948798.94208676, -296397433.51598173, 0}, {33095819.12082906, 28771229.34811255, 0},
+                    {-9.008303148616418, 2.1552619560037813, 0}),
+            ProofVerdict::avoided);
+  EXPECT_NE(verdict({-371857689930.164, -255931798861.90527, 0}, {37685893329.73551, 25937391461.049618, 0},
+                    {-8.876496329952214, -5.7196582486635625, 0}),
+            ProofVerdict::avoided);
+}
+
 TEST(Proof, DriftOfAConstantCurrent) {
   // Balls that pass at t = 4 with a gap of 0.5, carried towards each other by at most 4 C until then.
   const Track a = straight(ball(1), {-20, 0, 0}, {5, 0, 0}, 10),

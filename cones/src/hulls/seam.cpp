@@ -342,7 +342,11 @@ std::optional<std::pair<double, double>> first_time(const HullScene& scene, cons
   const auto least = EntryPlane(scene, direction).solve(around_line(scene, w / w.cwiseAbs().maxCoeff()));
   if (!least) return std::nullopt;
   const double along = std::abs(direction[0] != 0 ? w.x() : direction[1] != 0 ? w.y() : w.z());
-  const double time = std::ldexp(static_cast<double>(Rational(*least / Rational(along))), scene.grid);
+  // In two factors, neither of which leaves the doubles; rounded once.
+  const int half = scene.grid / 2;
+  const Rational seconds = *least / Rational(along) * Rational(std::ldexp(1.0, half)) *
+                           Rational(std::ldexp(1.0, scene.grid - half));
+  const auto time = static_cast<double>(seconds);
   if (!(time > 0x1p-1000 && time < 0x1p1000)) return std::nullopt;
   return std::pair(time * (1 - 0x1p-51), time * (1 + 0x1p-51));
 }

@@ -85,8 +85,8 @@ bool covered_together(std::vector<Touched<Part>> touched, Covers&& covers) {
   return by_piece(&T::agent, &T::agent_flat) || by_piece(&T::obstacle, &T::obstacle_flat);
 }
 
-/// The least t >= 0 with t w in K, rounded down and up; nothing where there is none, or the two hulls have
-/// too many points to say.
+/// The least t >= 0 with t w in K, rounded down and up; nothing where there is none, or it is not
+/// within 2^-1000 to 2^1000.
 std::optional<std::pair<double, double>> first_time(const HullScene& scene, const Eigen::Vector3d& w);
 
 }  // namespace vericone::exact

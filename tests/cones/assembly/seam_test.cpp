@@ -4,6 +4,7 @@
 // cover: every small change of the velocity, or of the place, is asked of every pair of pieces.
 #include <gtest/gtest.h>
 #include <vericone/cones/pair.h>
+#include <vericone/geometry/exact/rational.h>
 #include <vericone/internal/cones/composite/composite_pair.h>
 #include <vericone/internal/cones/hulls/hull_oracle.h>
 #include <Eigen/LU>
@@ -429,6 +430,21 @@ TEST(Seams, FirstTimesOfHullsAreThoseOfTheirPoints) {
   }
   EXPECT_GT(met, cases / 4);
   EXPECT_GT(missed, cases / 10);
+}
+
+// Where lengths are of one size and speeds of another the time is a double though their quotient is none.
+TEST(Seams, FirstTimesAreRoundedOnce) {
+  const double size = 0x1p480, speed = 0x1p1023;
+  for (int p = 3; p < 20; p += 2) {
+    const Body triangle(HullBody({{0, p * size, 0}, {size, -1e6 * size, 0}, {5 * size, -3 * size, 0}}));
+    const auto found =
+        Pair(Body(HullBody({Vector3d::Zero()})), triangle).contact(Vector3d(speed, 0, 0), Vector3d::Zero());
+    ASSERT_TRUE(found);
+    const exact::Rational truth =
+        exact::Rational(p, p + 1'000'000) * exact::Rational(size) / exact::Rational(speed);
+    EXPECT_LE(exact::Rational(found->earliest), truth) << p;
+    EXPECT_GE(exact::Rational(found->latest), truth) << p;
+  }
 }
 
 }  // namespace

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "proof/corridor.h"
 
+#include "proof/separation.h"
+
 #include <algorithm>
 #include <limits>
 #include <vector>
@@ -24,7 +26,7 @@ struct Instant {
 class Corridor {
  public:
   Corridor(const Track& track, const CorridorOfLeg& corridor)
-      : track_(track), corridor_(corridor), reach_(reach(track.shape())) {}
+      : track_(track), corridor_(corridor), reach_(reach(track.shape())), of_places_(rounding_of(track)) {}
 
   CorridorProof over(double from, double to) {
     std::vector<std::pair<Instant, Instant>> open{{at(from), at(to)}};
@@ -52,8 +54,8 @@ class Corridor {
     const double part = square > 0 ? std::clamp(c.dot(leg) / square, 0.0, 1.0) : 0;
     const Instant now{t, position, (c - part * leg).norm()};
     seen_ = std::min(seen_, corridor_.radius - reach_ - now.beside);
-    rounding_ =
-        std::max(rounding_, kRoundings * (position.norm() + corridor_.from.norm() + leg.norm() + reach_));
+    rounding_ = std::max(
+        rounding_, of_places_ + kRoundings * (position.norm() + corridor_.from.norm() + leg.norm() + reach_));
     return now;
   }
 
@@ -66,7 +68,7 @@ class Corridor {
 
   const Track& track_;
   const CorridorOfLeg& corridor_;
-  double reach_;
+  double reach_, of_places_;
   double seen_ = std::numeric_limits<double>::infinity(), rounding_ = 0;  // m
 };
 

@@ -120,8 +120,7 @@ std::optional<Inflation> apart_by_inflation(const MovingPair& pair, const Piece&
   const double sway = pair.swept_a(from, to, piece.middle.a.rotation, half_turn(a, piece)).sway() +
                       pair.swept_b(from, to, piece.middle.b.rotation, half_turn(b, piece)).sway();
   const double needed = (chord + chord_deviation(a, b, dt) + sway) * (1 + 1e-12) + padding +
-                        1e-9 * (reach(pair.a().shape()) + reach(pair.b().shape())) + piece.from.rounding() +
-                        piece.middle.rounding() + piece.to.rounding();
+                        1e-9 * (reach(pair.a().shape()) + reach(pair.b().shape())) + 3 * pair.rounding();
   if (!std::isfinite(needed)) return std::nullopt;
   const Posed bodies = posed_over(pair, piece);
   const auto proved = [&](double distance) { return apart_by(bodies.a, bodies.b, distance); };

@@ -58,8 +58,8 @@ Certificate by_distance(const MovingPair& pair, const Piece& piece) {
   // Taking a body into the other's frame rounds coordinates of the size of both.
   const double size =
       piece.middle.a.position.norm() + piece.middle.b.position.norm() + pair.reach_a() + pair.reach_b();
-  const double turning =
-      sway(pair.reach_a(), a, piece) + sway(pair.reach_b(), b, piece) + 1e-13 * size + 1e-12 * chord;
+  const double turning = sway(pair.reach_a(), a, piece) + sway(pair.reach_b(), b, piece) + 1e-13 * size +
+                         1e-12 * chord + 3 * pair.rounding();
 
   const Pair bodies = certified_pair(posed_over(pair, piece));
   const Miss now = bodies.miss(Vector3d::Zero(), Vector3d::Zero());

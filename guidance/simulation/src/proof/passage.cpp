@@ -15,6 +15,7 @@
 #include "proof/common_point.h"
 #include "proof/convex.h"
 #include "proof/padding.h"
+#include "proof/separation.h"
 #include "proof/time_search.h"
 
 namespace vericone::simulation {
@@ -72,7 +73,8 @@ class Clear {
         opening_(orifice.opening),
         placed_{orifice.opening, Vector3d::Zero(), Eigen::Matrix<double, 3, 2>::Identity()},
         padding_(options, agent.appears()),
-        spin_(orifice.spin.norm()) {
+        spin_(orifice.spin.norm()),
+        of_places_(rounding_of(agent)) {
     if (agent.shape().rigid()) rigid_ = convex_around(agent.shape(), agent.appears(), agent.appears());
   }
 
@@ -158,8 +160,8 @@ class Clear {
 
   /// What taking a body into the opening's frame rounds.
   double rounding(const Sight& s, double reach) const {
-    return 1e-14 * (1 + spin_ * std::abs(s.t)) *
-           (s.motion.position.norm() + s.center.norm() + reach + opening_.reach());
+    return of_places_ + 1e-14 * (1 + spin_ * std::abs(s.t)) *
+                            (s.motion.position.norm() + s.center.norm() + reach + opening_.reach());
   }
 
   struct Certificate {
@@ -370,7 +372,7 @@ class Clear {
   const Opening& opening_;
   PlacedOpening placed_;  // in its own frame
   Padding padding_;
-  double spin_;
+  double spin_, of_places_;
   std::optional<Convex> rigid_;
   double nearest_ = kFar, nearest_time_ = 0;  // a distance that the body comes to, about, and when, s
   Vector3d nearest_place_ = Vector3d::Zero();

@@ -34,7 +34,7 @@ class Separator {
     const double dt = piece.duration();
     // Positions are within |a| dt^2 / 8 of the chord, however the acceleration turns.
     deviation_ = chord_deviation(bounds_a_, bounds_b_, dt) * (1 + 1e-12);
-    rounding_ = 1e-14 * (from_.norm() + to_.norm()) + piece.from.rounding() + piece.to.rounding();
+    rounding_ = 1e-14 * (from_.norm() + to_.norm()) + 2 * pair.rounding();
     // The support of a turning body is within this of the chord, on its upper side.
     bend_ = (a_.extent() * bend(bounds_a_, dt) + b_.extent() * bend(bounds_b_, dt)) * (1 + 1e-12);
     if (std::max(a_.angle(), b_.angle()) > 0 && std::isfinite(bend_)) {
@@ -150,11 +150,22 @@ class Separator {
 
 }  // namespace
 
+double rounding_of(const Track& track) {
+  double most = track.legs().empty() ? track.motion(track.appears()).position.norm() : 0;
+  for (const auto& leg : track.legs()) {
+    const double h = leg->to() - leg->from();
+    most = std::max(most, leg->start().position.norm() +
+                              h * (leg->start().velocity.norm() + 50 * h * leg->most_acceleration()));
+  }
+  return 0x1p-50 * most;
+}
+
 MovingPair::MovingPair(const Track& a, const Track& b)
     : a_(&a),
       b_(&b),
       reach_a_(reach(a.shape())),
       reach_b_(reach(b.shape())),
+      rounding_(rounding_of(a) + rounding_of(b)),
       planar_(simulation::planar(a.shape())) {}
 
 SweptBody MovingPair::swept_a(double from, double to, const Eigen::Matrix3d& rotation, double angle) const {

@@ -15,9 +15,12 @@ struct Moment {
   double t = 0;
   Motion a, b;
   Eigen::Vector3d between() const { return b.position - a.position; }
-  /// m: what rounding may take from where both are; far from the origin it is more than any padding.
-  double rounding() const { return 0x1p-50 * (a.position.norm() + b.position.norm()); }
 };
+
+/// m: what rounding may take from a place on a track. Places are sums of where a leg began and what was flown
+/// since, so a body that comes from far off has it near the origin too. Of curves: with |p''| <= a over h
+/// seconds the terms of p'', of degree 3, add up to 99 a at most, those of p to half as many h^2.
+double rounding_of(const Track& track);
 
 /// Two tracks and what is known of them for all times.
 class MovingPair {
@@ -30,6 +33,8 @@ class MovingPair {
   /// No point of the body is ever farther from its reference point.
   double reach_a() const { return reach_a_; }
   double reach_b() const { return reach_b_; }
+  /// Of where one is from the other, by the places of both.
+  double rounding() const { return rounding_; }
   Moment at(double t) const { return {t, a_->motion(t), b_->motion(t)}; }
   /// All shapes of [from, to] at a rotation, and turned from it by at most `angle`.
   SweptBody swept_a(double from, double to, const Eigen::Matrix3d& rotation, double angle) const;
@@ -37,7 +42,7 @@ class MovingPair {
 
  private:
   const Track *a_, *b_;
-  double reach_a_, reach_b_;
+  double reach_a_, reach_b_, rounding_;
   bool planar_;
 };
 
