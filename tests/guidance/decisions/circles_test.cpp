@@ -247,8 +247,10 @@ TEST(Swerves, AreOfEachBodyItsOwn) {
   EXPECT_LT(both.until, kFar);
   ASSERT_TRUE(none.proved && first.proved && second.proved && both.proved);
   EXPECT_LT(*first.proved, *none.proved);
-  EXPECT_LE(*both.proved, *first.proved);
-  EXPECT_LE(*both.proved, *second.proved);
+  EXPECT_LT(*both.proved, *none.proved);
+  // Each is of the course that a search found, so what could be no better may be by a little.
+  EXPECT_LE(*both.proved, *first.proved * (1 + 1e-4));
+  EXPECT_LE(*both.proved, *second.proved * (1 + 1e-4));
   EXPECT_THROW(kept({1}), InputError);
   EXPECT_THROW(kept({1, -1}), InputError);
 }
