@@ -3,10 +3,14 @@
 """What readers of checker/vericone_check.py tried who asked which false certificate it would accept: none of these. Those of
 one changed value are in false_certificates.py. Environment: VERICONE_SOURCE."""
 import copy
+import json
+import subprocess
+import sys
+import time
 import unittest
 
 import make
-from checker_test import example, status
+from checker_test import PROGRAM, example, status
 
 BALL = {"kind": "ball", "center": [0, 0, 0], "radius": 1}
 FAR = {"kind": "ball", "center": [9, 0, 0], "radius": 1}
@@ -231,6 +235,89 @@ class Attacks(unittest.TestCase):
             bad = copy.deepcopy(document)
             bad["claim"]["id"] = value
             self.refused(bad, (2,))
+
+    def test_exactly_at_the_edge(self):
+        """A body that comes exactly as far as the wall's outer edge does not keep nearer to its middle."""
+        proofs = [{"rule": "pieces", "times": [0, 2], "planes": [[n, 1, ["1/2"], ["-1"]]]}
+                  for n in ([1, 0, 0], [0, 1, 0], [-1, 0, 0], [0, -1, 0])]
+        for extent, attempt in ((8, self.refused), ("79/10", self.refused), ("8001/1000", self.accepted)):
+            wall = {"kind": "wall", "outline": [[1, -1], [1, 1], [-1, 1], [-1, -1]], "extent": extent}
+            attempt(run_of("passed", [{**BALL, "radius": "1/2"}, wall], [track([[0, 0, "-15/2"], [0, 0, "15/2"]]), track([[0, 0, 0]])],
+                           {"rule": "through", "room": "15/2", "reach": "1/2", "proof": {
+                               "rule": "groups", "of": "obstacle", "runs": [[k, 1] for k in range(4)], "proofs": proofs}},
+                           pair=[0, 1], along=1))
+
+    def test_meeting_where_a_track_jumps(self):
+        """At a time between two segments both count."""
+        near, far, there = [[10, 0, 0], [2, 0, 0]], [[100, 0, 0]], [[2, 0, 0], [9, 0, 0]]
+        for its, at, attempt in ((track(near, far, times=(0, 1, 2)), 1, self.refused), (track(far, there, times=(0, 1, 2)), 1, self.refused),
+                                 (track(near, there, times=(0, 1, 2)), 1, self.accepted), (track(near), 2, self.accepted),
+                                 (track(far, there, times=(-1, 0, 2)), 0, self.accepted), (track(near, far, times=(0, 2, 3)), 2, self.accepted)):
+            tracks = [its, track([[0, 0, 0]])]
+            attempt(run_of("meet", [BALL, BALL], tracks, {"rule": "point", "time": at, "point": [1, 0, 0]}, pair=[0, 1]))
+            attempt(run_of("near", [BALL, BALL], tracks, {"rule": "point", "time": at, "point": [1, 0, 0]}, pair=[0, 1], by=0))
+
+    def test_all_of_the_claim_is_told(self):
+        def digits(count):
+            return "1/" + "7" * count
+        tiny, errors = [digits(600)] * 3, {"factor": [[digits(630), 0, 0], [0, digits(630), 0], [0, 0, digits(630)]]}
+        obstacle = {"kind": "octree", "center": tiny, "low": ["9" + "0" * 600] * 3, "cell": "7" * 1990, "depth": 0, "tree": "." * 7 + "#"}
+        document = moving("out", obstacle, {"rule": "plane", "n": [0, 1, 0]}, tiny, [digits(980), digits(970)], id="i" * 1990,
+                          position_error=errors, velocity_error=errors)
+        document["claim"]["agent"].update(center=[0, "-" + "7" * 1900, 0], radius=digits(1900))
+        document["claim"]["obstacle"]["velocity"] = tiny
+        code, said = status(document)
+        self.assertEqual(code, 0, said)
+        self.assertEqual(json.loads(said[said.index("{"):]), document["claim"])
+        self.assertGreater(len(said), 20000)
+
+    def test_covers_of_what_is_none(self):
+        box = {"rule": "cover", "boxes": [[[-1, -1, -1], [1, 1, 1]]], "runs": [[0, 1]]}
+        for of in ("x", "w", "says", "t0", "agent ", ""):
+            self.refused(disjoint(FAR, {**box, "of": of, "proof": PLANE}), (2,))
+            document = apart((track([[0, 0, 0]]), track([[9, 0, 0]])), [[[1, 0, 0], 1, [1], [1]]])
+            document["proof"]["pairs"]["0 1"] = {**box, "of": of, "proof": document["proof"]["pairs"]["0 1"]}
+            self.refused(document, (2,))
+        self.accepted(disjoint(FAR, {**box, "of": "agent", "proof": PLANE}))
+
+    def test_files_begin_with_what_they_begin_with(self):
+        document = json.dumps(example("plane", "out")).encode()
+        for data in (b"\n" + document + b"\n" + document, b" \r\n\n" + document + b"\n\n" + document + b"\n"):
+            code, said = status(data)
+            self.assertEqual((code, said.count("accepted")), (0, 2), said)
+        self.accepted(b"\n\n" + json.dumps(example("plane", "out"), indent=1).encode())
+
+    def test_small_files_take_little(self):
+        """Long denominators of many points, of many bodies; octrees without cells, or with escaped ones; long characters."""
+        def cloud(count, ends=(), **more):
+            return {"kind": "cloud", "radius": 1, "points": [[f"1/{end}", 0, 0] for end in ends] + [[k, 1, 1] for k in range(count)], **more}
+        wide, unit = [10 ** 640 + 1, 10 ** 641 + 3], {**PLANE, "n": [-1, 0, 0]}
+        before = {**FAR, "center": [-9, 0, 0]}
+        octree = {"kind": "octree", "low": [0, 0, 0], "cell": 1, "depth": 0, "tree": "#......."}
+        many = apart([track([[0, 0, 0]])] * 40, [[[1, 0, 0], 1, [1], [1]]], bodies=[cloud(900, (10 ** 2300 + 1, 10 ** 2301 + 3))] * 40)
+        files = [disjoint(before, unit, cloud(30000, wide)), disjoint(before, unit, cloud(30000, center=[f"1/{wide[0] * wide[1]}", 0, 0])),
+                 json.dumps(disjoint(before, unit, {**octree, "tree": "." * 10 ** 7})),
+                 json.dumps(disjoint(before, unit, {**octree, "tree": "@" * 400000})).replace("@", "\\u0023"),
+                 json.dumps(disjoint(before, unit, {**octree, "kind": "\U0001f600" + "." * 39 * 10 ** 6}), ensure_ascii=False),
+                 json.dumps(disjoint(before, unit, {**octree, "kind": "\U0001f600" + "." * 39 * 10 ** 6}))]
+        most = "import resource, subprocess, sys; done = subprocess.run(sys.argv[1:], stdin=sys.stdin, capture_output=True); " \
+            "print(done.returncode, resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss, done.stderr.decode()[-300:])"
+        for k, data in enumerate([*files, *([many] if sys.platform == "linux" else [])]):
+            data = (data if isinstance(data, str) else json.dumps(data)).encode()
+            done = subprocess.run([sys.executable, "-c", most, sys.executable, PROGRAM, "-"], input=data, capture_output=True, check=True)
+            code, kilobytes, *errors = done.stdout.decode().split()
+            self.assertEqual((code, errors), ("2", []), k)
+            self.assertLess(int(kilobytes), 195_000, k)
+        self.accepted(disjoint(before, unit, cloud(3, wide)))
+
+    def test_time_of_unions(self):
+        """It grows as the number of pieces does."""
+        seconds = []
+        for count in (2000, 20000):
+            start = time.process_time()
+            self.accepted(disjoint({**FAR, "center": [-9, 0, 0]}, {**PLANE, "n": [-1, 0, 0]}, {"kind": "union", "pieces": [BALL] * count}))
+            seconds.append(time.process_time() - start)
+        self.assertLess(seconds[1], 20 * seconds[0])
 
 
 if __name__ == "__main__":
