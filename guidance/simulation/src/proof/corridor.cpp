@@ -26,9 +26,10 @@ struct Instant {
 class Corridor {
  public:
   Corridor(const Track& track, const CorridorOfLeg& corridor)
-      : track_(track), corridor_(corridor), reach_(reach(track.shape())), of_places_(rounding_of(track)) {}
+      : track_(track), corridor_(corridor), reach_(reach(track.shape())) {}
 
   CorridorProof over(double from, double to) {
+    of_places_ = rounding_of(track_, from, to);
     std::vector<std::pair<Instant, Instant>> open{{at(from), at(to)}};
     double room = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; !open.empty(); ++i) {
@@ -68,7 +69,7 @@ class Corridor {
 
   const Track& track_;
   const CorridorOfLeg& corridor_;
-  double reach_, of_places_;
+  double reach_, of_places_ = 0;
   double seen_ = std::numeric_limits<double>::infinity(), rounding_ = 0;  // m
 };
 

@@ -67,14 +67,14 @@ class Clear {
   using Leaf = ProvedPiece;
   using Span = TimeSpan<Sight>;
 
-  Clear(const Track& agent, const MovingOrifice& orifice, const ProofOptions& options)
+  Clear(const Track& agent, const MovingOrifice& orifice, const ProofOptions& options, double from, double to)
       : agent_(agent),
         orifice_(orifice),
         opening_(orifice.opening),
         placed_{orifice.opening, Vector3d::Zero(), Eigen::Matrix<double, 3, 2>::Identity()},
         padding_(options, agent.appears()),
         spin_(orifice.spin.norm()),
-        of_places_(rounding_of(agent)) {
+        of_places_(rounding_of(agent, from, to)) {
     if (agent.shape().rigid()) rigid_ = convex_around(agent.shape(), agent.appears(), agent.appears());
   }
 
@@ -390,7 +390,7 @@ PassageProof prove_passage(const Track& agent, const MovingOrifice& orifice, dou
                            const ProofOptions& options) {
   require_time(std::max(agent.appears(), orifice.appears), agent.end(), from, to);
   check(options);
-  return Clear(agent, orifice, options).prove(from, to, options.resolution);
+  return Clear(agent, orifice, options, from, to).prove(from, to, options.resolution);
 }
 
 }  // namespace vericone::simulation

@@ -168,7 +168,7 @@ void require_time(double first, double last, double from, double to) {
 PairProof prove(const Track& a, const Track& b, double from, double to, const ProofOptions& options) {
   require_time(std::max(a.appears(), b.appears()), std::min(a.end(), b.end()), from, to);
   check(options);
-  return prove(MovingPair(a, b), from, to, options);
+  return prove(MovingPair(a, b, from, to), from, to, options);
 }
 
 }  // namespace vericone::simulation

@@ -150,22 +150,23 @@ class Separator {
 
 }  // namespace
 
-double rounding_of(const Track& track) {
+double rounding_of(const Track& track, double from, double to) {
   double most = track.legs().empty() ? track.motion(track.appears()).position.norm() : 0;
   for (const auto& leg : track.legs()) {
-    const double h = leg->to() - leg->from();
+    if (leg->to() < from || (leg->from() >= to && leg->from() > from)) continue;
+    const double h = std::min(to, leg->to()) - leg->from();
     most = std::max(most, leg->start().position.norm() +
                               h * (leg->start().velocity.norm() + 50 * h * leg->most_acceleration()));
   }
   return 0x1p-50 * most;
 }
 
-MovingPair::MovingPair(const Track& a, const Track& b)
+MovingPair::MovingPair(const Track& a, const Track& b, double from, double to)
     : a_(&a),
       b_(&b),
       reach_a_(reach(a.shape())),
       reach_b_(reach(b.shape())),
-      rounding_(rounding_of(a) + rounding_of(b)),
+      rounding_(rounding_of(a, from, to) + rounding_of(b, from, to)),
       planar_(simulation::planar(a.shape())) {}
 
 SweptBody MovingPair::swept_a(double from, double to, const Eigen::Matrix3d& rotation, double angle) const {

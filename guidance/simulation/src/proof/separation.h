@@ -17,15 +17,15 @@ struct Moment {
   Eigen::Vector3d between() const { return b.position - a.position; }
 };
 
-/// m: what rounding may take from a place on a track. Places are sums of where a leg began and what was flown
-/// since, so a body that comes from far off has it near the origin too. Of curves: with |p''| <= a over h
-/// seconds the terms of p'', of degree 3, add up to 99 a at most, those of p to half as many h^2.
-double rounding_of(const Track& track);
+/// m: what rounding may take from a place on a track in [from, to]. Places are sums of where a leg began and
+/// what was flown since, so a body that comes from far off has it near the origin too. Of curves: with |p''|
+/// <= a over h seconds the terms of p'', of degree 3, add up to 99 a at most, those of p to half as many h^2.
+double rounding_of(const Track& track, double from, double to);
 
-/// Two tracks and what is known of them for all times.
+/// Two tracks and what is known of them over [from, to].
 class MovingPair {
  public:
-  MovingPair(const Track& a, const Track& b);
+  MovingPair(const Track& a, const Track& b, double from, double to);
 
   const Track& a() const { return *a_; }
   const Track& b() const { return *b_; }
