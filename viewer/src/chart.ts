@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // Lines over time on a canvas, with a cursor that people move by pointer or keys.
-import { colour, niceStep, sized } from "./dom";
+import { colour, niceStep, sized, whileHeld } from "./dom";
 import { short } from "./doubles";
 
 export interface Series {
@@ -38,17 +38,10 @@ export class TimeChart {
     private readonly end: number,
     private readonly chosen: (t: number) => void,
   ) {
-    const at = (e: PointerEvent): void => {
+    whileHeld(canvas, e => {
       const box = canvas.getBoundingClientRect();
       const share = (e.clientX - box.left - LEFT) / (box.width - LEFT - EDGE);
       this.chosen(this.end * Math.min(1, Math.max(0, share)));
-    };
-    canvas.addEventListener("pointerdown", e => {
-      canvas.setPointerCapture(e.pointerId);
-      at(e);
-    });
-    canvas.addEventListener("pointermove", e => {
-      if (e.buttons & 1) at(e);
     });
     canvas.addEventListener("keydown", e => {
       const step = ((e.shiftKey ? 10 : 1) * this.end) / 200;

@@ -27,6 +27,17 @@ export function button(words: string, action: () => void, label = words): HTMLBu
   return made;
 }
 
+/** Asked where the pointer is while it is held down on a canvas. */
+export function whileHeld(canvas: HTMLCanvasElement, at: (e: PointerEvent) => void): void {
+  canvas.addEventListener("pointerdown", e => {
+    canvas.setPointerCapture(e.pointerId);
+    at(e);
+  });
+  canvas.addEventListener("pointermove", e => {
+    if (e.buttons & 1) at(e);
+  });
+}
+
 /** A table whose first row and first column are headers. */
 export function fillTable(table: HTMLTableElement, caption: string, head: string[], rows: Child[][]): void {
   table.replaceChildren(

@@ -535,18 +535,7 @@ export class RunPage {
       this.fit();
       this.redraw();
     });
-    const views = element("solid-buttons");
-    if (!this.data.planar)
-      views.append(
-        button("from above", () => this.solid.look(-90, 90)),
-        button("along x", () => this.solid.look(180, 0)),
-        button("along y", () => this.solid.look(-90, 0)),
-      );
-    views.append(
-      button("+", () => this.solid.scale(1.2), "larger"),
-      button("\u2212", () => this.solid.scale(1 / 1.2), "smaller"),
-      button("reset", () => this.solid.reset(), "reset the view"),
-    );
+    element("solid-buttons").append(...this.solid.buttons(this.data.planar));
   }
 }
 

@@ -3,7 +3,7 @@
 // Bodies in space on a 2-D canvas, painted from the far end to the near one: no WebGL is asked for.
 import type { Vec } from "./core";
 import type { Surface } from "./data";
-import { colour, niceStep, sized } from "./dom";
+import { button, colour, niceStep, sized } from "./dom";
 import { cross, dot, norm, plus, short, turned } from "./doubles";
 
 export interface Shown {
@@ -108,6 +108,22 @@ export class SolidView {
     this.yaw += yaw;
     this.pitch = Math.min(90, Math.max(-90, this.pitch + pitch));
     this.redraw();
+  }
+  /** From where it is looked at, and how large: of a planar scene the size alone. */
+  buttons(planar: boolean): HTMLButtonElement[] {
+    const from = planar
+      ? []
+      : [
+          button("from above", () => this.look(-90, 90)),
+          button("along x", () => this.look(180, 0)),
+          button("along y", () => this.look(-90, 0)),
+        ];
+    return [
+      ...from,
+      button("+", () => this.scale(1.2), "larger"),
+      button("\u2212", () => this.scale(1 / 1.2), "smaller"),
+      button("reset", () => this.reset(), "reset the view"),
+    ];
   }
   look(yaw: number, pitch: number): void {
     if (!this.planar) [this.yaw, this.pitch] = [yaw, pitch];

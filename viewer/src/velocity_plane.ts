@@ -2,7 +2,7 @@
 //
 // A plane of the agent's velocities: each square coloured by the verdict on the velocity at its middle.
 import { VERDICTS, type Pair, type Sector, type Vec } from "./core";
-import { colour, sized } from "./dom";
+import { colour, sized, whileHeld } from "./dom";
 import { anyAcross, dot, norm, plus, short, times, unit } from "./doubles";
 
 export type PlaneName = "sight" | "xy" | "xz" | "yz";
@@ -34,16 +34,9 @@ export class VelocityPlane {
     private readonly chosen: (v: Vec) => void,
     private readonly done: () => void,
   ) {
-    const at = (e: PointerEvent): void => {
+    whileHeld(canvas, e => {
       const box = canvas.getBoundingClientRect();
       this.choose(this.velocity(e.clientX - box.left, e.clientY - box.top));
-    };
-    canvas.addEventListener("pointerdown", e => {
-      canvas.setPointerCapture(e.pointerId);
-      at(e);
-    });
-    canvas.addEventListener("pointermove", e => {
-      if (e.buttons & 1) at(e);
     });
     canvas.addEventListener("keydown", e => {
       const ways: Record<string, [number, number]> = {
